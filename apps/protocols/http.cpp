@@ -1,4 +1,4 @@
-// Parses HTTP requests and writes responses.
+// Parses HTTP requests and responses, and writes responses.
 #include "apps/protocols/http.h"
 
 #include <algorithm>
@@ -53,14 +53,6 @@ bool is_field_value(std::string_view text) {
   });
 }
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return lower;
-}
-
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t";
   const std::size_t first = text.find_first_not_of(kBlank);
@@ -70,7 +62,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 // "GET /path HTTP/1.1"
-HttpParse read_request_line(std::string_view line, HttpRequest& request) {
+HttpParse read_first_line(std::string_view line, HttpRequest& request) {
   const std::size_t first = line.find(' '), last = line.rfind(' ');
   if (first == std::string_view::npos || first == last) {
     return HttpParse::kMalformed;
@@ -91,32 +83,53 @@ HttpParse read_request_line(std::string_view line, HttpRequest& request) {
 }
 
 // "Name: value"
-HttpParse read_field(std::string_view line, HttpRequest& request) {
+HttpParse read_field(std::string_view line, HttpFields& head) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos || !is_token(line.substr(0, colon)) ||
       !is_field_value(line.substr(colon + 1))) {
     return HttpParse::kMalformed;
   }
-  if (request.fields.size() == kHttpMaxFields) {
+  if (head.fields.size() == kHttpMaxFields) {
     return HttpParse::kHeadTooLarge;
   }
-  request.fields.emplace_back(lower_case(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+  head.fields.emplace_back(http_lower_case(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
   return HttpParse::kOk;
 }
 
-HttpParse read_head(std::string_view head, HttpRequest& request) {
+// "HTTP/1.1 200 OK"
+HttpParse read_first_line(std::string_view line, HttpResponse& response) {
+  constexpr std::string_view kVersion = "HTTP/1.1 ";
+  if (!line.starts_with(kVersion)) {
+    return HttpParse::kMalformed;
+  }
+  const std::string_view digits = line.substr(kVersion.size(), 3);
+  const auto parsed =
+      std::from_chars(digits.data(), digits.data() + digits.size(), response.status);
+  return parsed.ptr == digits.data() + 3 && response.status >= 100 ? HttpParse::kOk
+                                                                   : HttpParse::kMalformed;
+}
+
+template <class Head>
+HttpParse read_head(std::string_view text, Head& head) {
   bool is_first = true;
-  while (!head.empty()) {
-    const std::string_view line = head.substr(0, head.find(kLineEnd));
-    head.remove_prefix(std::min(head.size(), line.size() + kLineEnd.size()));
-    const HttpParse parsed =
-        is_first ? read_request_line(line, request) : read_field(line, request);
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find(kLineEnd));
+    text.remove_prefix(std::min(text.size(), line.size() + kLineEnd.size()));
+    const HttpParse parsed = is_first ? read_first_line(line, head) : read_field(line, head);
     if (parsed != HttpParse::kOk) {
       return parsed;
     }
     is_first = false;
   }
   return is_first ? HttpParse::kMalformed : HttpParse::kOk;
+}
+
+std::size_t head_end(std::string_view bytes) {
+  return bytes.substr(0, kHttpMaxHeadBytes).find(kHeadEnd);
+}
+
+HttpParse without_end(std::string_view bytes) {
+  return bytes.size() < kHttpMaxHeadBytes ? HttpParse::kIncomplete : HttpParse::kHeadTooLarge;
 }
 
 std::ptrdiff_t occurrences(const HttpRequest& request, std::string_view name) {
@@ -149,14 +162,22 @@ HttpParse check_fields(HttpRequest& request, std::size_t& bytes) {
     return HttpParse::kBodyTooLarge;
   }
   bytes = static_cast<std::size_t>(*length);
-  const std::string connection = lower_case(request.field("connection"));
+  const std::string connection = http_lower_case(request.field("connection"));
   request.keep_alive = request.keep_alive && connection.find("close") == std::string::npos;
   return HttpParse::kOk;
 }
 
 }  // namespace
 
-std::string_view HttpRequest::field(std::string_view name) const {
+std::string http_lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return lower;
+}
+
+std::string_view HttpFields::field(std::string_view name) const {
   const auto found = std::find_if(fields.begin(), fields.end(),
                                   [name](const auto& field) { return field.first == name; });
   return found == fields.end() ? std::string_view() : std::string_view(found->second);
@@ -164,9 +185,9 @@ std::string_view HttpRequest::field(std::string_view name) const {
 
 HttpParse parse_http_request(std::string_view bytes, HttpRequest& request,
                              std::size_t& used_bytes) {
-  const std::size_t end = bytes.substr(0, kHttpMaxHeadBytes).find(kHeadEnd);
+  const std::size_t end = head_end(bytes);
   if (end == std::string_view::npos) {
-    return bytes.size() < kHttpMaxHeadBytes ? HttpParse::kIncomplete : HttpParse::kHeadTooLarge;
+    return without_end(bytes);
   }
   HttpRequest parsed;
   std::size_t length = 0;
@@ -182,6 +203,21 @@ HttpParse parse_http_request(std::string_view bytes, HttpRequest& request,
   request = std::move(parsed);
   used_bytes = end + kHeadEnd.size() + length;
   return HttpParse::kOk;
+}
+
+HttpParse parse_http_response(std::string_view bytes, HttpResponse& response,
+                              std::size_t& used_bytes) {
+  const std::size_t end = head_end(bytes);
+  if (end == std::string_view::npos) {
+    return without_end(bytes);
+  }
+  HttpResponse parsed;
+  const HttpParse result = read_head(bytes.substr(0, end), parsed);
+  if (result == HttpParse::kOk) {
+    response = std::move(parsed);
+    used_bytes = end + kHeadEnd.size();
+  }
+  return result;
 }
 
 std::string http_head(int status, std::initializer_list<HttpField> fields) {

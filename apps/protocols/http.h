@@ -1,5 +1,5 @@
-// HTTP/1.1 (RFC 9112) as a small server on this machine needs it: requests with an optional body of
-// known length, and responses.
+// HTTP/1.1 (RFC 9112) as a small server on this machine and the handshake of WebSocket need it:
+// requests with an optional body of known length, and responses.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,22 @@ inline constexpr std::size_t kHttpMaxHeadBytes = 8192;   // request line and fie
 inline constexpr std::size_t kHttpMaxBodyBytes = 16384;  // body of a request
 inline constexpr std::size_t kHttpMaxFields = 64;
 
-struct HttpRequest {
-  std::string method;                                       // "GET"
-  std::string target;                                       // "/path?query", as received
+struct HttpFields {
   std::vector<std::pair<std::string, std::string>> fields;  // names in lower case
-  std::string body;
-  bool keep_alive = true;
 
   // The value of a field, given in lower case; empty if it is absent.
   [[nodiscard]] std::string_view field(std::string_view name) const;
+};
+
+struct HttpRequest : HttpFields {
+  std::string method;  // "GET"
+  std::string target;  // "/path?query", as received
+  std::string body;
+  bool keep_alive = true;
+};
+
+struct HttpResponse : HttpFields {
+  int status = 0;
 };
 
 // The result of parsing. Values from 400 on are the status of the response.
@@ -42,6 +49,12 @@ enum class HttpParse : int {
 // differently: bare line feeds, folded fields, repeated Host or Content-Length.
 [[nodiscard]] HttpParse parse_http_request(std::string_view bytes, HttpRequest& request,
                                            std::size_t& used_bytes);
+
+// The same for a response, without its body.
+[[nodiscard]] HttpParse parse_http_response(std::string_view bytes, HttpResponse& response,
+                                            std::size_t& used_bytes);
+
+[[nodiscard]] std::string http_lower_case(std::string_view text);
 
 struct HttpField {
   std::string_view name, value;

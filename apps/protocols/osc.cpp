@@ -18,7 +18,13 @@ struct AppendArgument {
   }
   void operator()(float value) const { append_big_float(packet, double{value}); }
   void operator()(std::string_view value) const { append_string(packet, value); }
+  void operator()(bool /*value*/) const {}  // the type tag is the value
 };
+
+char type_tag(const OscArgument& argument) {
+  const bool* truth = std::get_if<bool>(&argument);
+  return truth != nullptr ? (*truth ? 'T' : 'F') : "ifs"[argument.index()];
+}
 
 std::string empty_bundle() {
   std::string bundle;
@@ -34,7 +40,7 @@ std::string osc_message(std::string_view address, std::span<const OscArgument> a
   append_string(message, address);
   std::string tags = ",";
   for (const OscArgument& argument : arguments) {
-    tags += "ifs"[argument.index()];
+    tags += type_tag(argument);
   }
   append_string(message, tags);
   for (const OscArgument& argument : arguments) {

@@ -1,4 +1,5 @@
-// Open Sound Control 1.0: encoding of messages and bundles (`opensoundcontrol.org`, spec 1_0).
+// Open Sound Control 1.0: encoding of messages and bundles (`opensoundcontrol.org`, spec 1_0), with
+// booleans of version 1.1.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,8 @@
 
 namespace mien::protocols {
 
-// int32, float32, string; strings contain no NUL.
-using OscArgument = std::variant<std::int32_t, float, std::string_view>;
+// int32, float32, string, boolean; strings contain no NUL.
+using OscArgument = std::variant<std::int32_t, float, std::string_view, bool>;
 
 [[nodiscard]] std::string osc_message(std::string_view address,
                                       std::span<const OscArgument> arguments);

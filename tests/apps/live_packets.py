@@ -47,6 +47,8 @@ def osc(data):
     for tag in tags[1:]:
         if tag == "s":
             argument, at = osc_string(data, at)
+        elif tag in "TF":
+            argument = tag == "T"
         else:
             argument, = struct.unpack_from({"i": ">i", "f": ">f"}[tag], data, at)
             at += 4
@@ -76,6 +78,25 @@ def vmc(packets):
             require(address == "/VMC/Ext/Blend/Val" and len(arguments) == 2, address)
             require(arguments[0] not in frame["blends"], "twice: " + arguments[0])
             frame["blends"][arguments[0]] = arguments[1]
+    return frame
+
+
+def vrchat(packets):
+    """{"active": 3 booleans, "parameters": {name after v2/: value}, "native": {name: [values]}} of the datagrams of one frame"""
+    frame = {"active": [], "parameters": {}, "native": {}}
+    for packet in packets:
+        require(len(packet) <= 1500 and packet.startswith(b"#bundle\0"), "not a bundle of at most 1500 bytes")
+        for address, arguments in osc(packet):
+            if address.startswith("/tracking/eye/"):
+                require(all(isinstance(a, float) for a in arguments), address)
+                frame["native"][address.rsplit("/", 1)[1]] = arguments
+            elif address.endswith("TrackingActive"):
+                require(isinstance(arguments[0], bool) and address.count("/") == 3, address)
+                frame["active"] += arguments
+            else:
+                name = address.rsplit("/v2/", 1)[1]
+                require(name not in frame["parameters"] and len(arguments) == 1 and isinstance(arguments[0], float), address)
+                frame["parameters"][name], = arguments
     return frame
 
 

@@ -20,10 +20,11 @@ void add_live(CLI::App& program) {
       "--mic", options->microphone,
       "name of a microphone, a URL, test:FILE, or none (default: the first microphone, or the "
       "audio of the camera's test:FILE; none if the camera is a URL)");
-  verb->add_option("--send", options->destinations,
-                   "destination, repeatable: vmc://HOST:PORT, llf://, ifm://, osf://, "
-                   "opentrack://, jsonl://, or - for JSON lines on standard output; HOST defaults "
-                   "to this machine (default: no destination)")
+  verb->add_option(
+          "--send", options->destinations,
+          "destination, repeatable: vmc://HOST:PORT, llf://, ifm://, osf://, "
+          "opentrack://, vrchat://, vts:// (VTube Studio), jsonl://, or - for JSON lines on "
+          "standard output; HOST defaults to this machine (default: no destination)")
       ->expected(1)
       ->take_all();
   verb->add_flag("--mirror", options->mirror, "exchange left and right");

@@ -7,6 +7,8 @@
 
 namespace mien::app {
 
+inline constexpr const char* kThisMachine = "127.0.0.1";  // the default of a host
+
 struct Destination {
   std::string text;        // the URL
   std::string scheme;      // "vmc"

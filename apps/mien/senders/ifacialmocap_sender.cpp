@@ -17,7 +17,7 @@ constexpr int kMaxHellosAFrame = 64;         // more wait in the socket, or the 
 constexpr std::size_t kMaxHelloBytes = 256;  // enough to recognize a hello
 
 struct Receiver {
-  UdpAddress address;
+  SocketAddress address;
   char separator;
 };
 
@@ -26,7 +26,7 @@ class IfacialmocapSender : public Sender {
   IfacialmocapSender(const Destination& destination, std::optional<UdpSocket> extra_receiver,
                      std::optional<std::uint16_t> reply_port, bool reply_to_source)
       : Sender(destination.text),
-        socket_(UdpSocket::at(destination.host.empty() ? "127.0.0.1" : destination.host,
+        socket_(UdpSocket::at(destination.host.empty() ? kThisMachine : destination.host,
                               destination.port == 0 ? kPort : destination.port,
                               "--send " + destination.text)),
         extra_receiver_(std::move(extra_receiver)),
@@ -68,7 +68,7 @@ class IfacialmocapSender : public Sender {
 
   // The app replies to its own port number, whatever the source port. On one machine that port is
   // ours, so the reply goes to the source port.
-  [[nodiscard]] UdpAddress reply_address(const UdpAddress& source) const {
+  [[nodiscard]] SocketAddress reply_address(const SocketAddress& source) const {
     if (reply_to_source_ || (!reply_port_ && source.loopback())) {
       return source;
     }
@@ -102,7 +102,7 @@ std::unique_ptr<Sender> ifacialmocap_sender(const Destination& requested) {
   std::optional<UdpSocket> extra_receiver;
   if (!to.empty()) {
     const Destination place = parse_destination("ifm://" + to);
-    extra_receiver.emplace(UdpSocket::to(place.host.empty() ? "127.0.0.1" : place.host,
+    extra_receiver.emplace(UdpSocket::to(place.host.empty() ? kThisMachine : place.host,
                                          place.port == 0 ? kPort : place.port,
                                          "--send " + destination.text));
   }

@@ -1,4 +1,4 @@
-// Sends VMC, Live Link, OpenSeeFace, OpenTrack and JSON packets.
+// Sends VMC, Live Link, OpenSeeFace, OpenTrack, VRChat and JSON packets.
 #include "apps/mien/senders/packet_sender.h"
 
 #include <utility>
@@ -10,11 +10,10 @@
 #include "apps/protocols/live_link.h"
 #include "apps/protocols/opentrack.h"
 #include "apps/protocols/vmc.h"
+#include "apps/protocols/vrchat.h"
 
 namespace mien::app {
 namespace {
-
-constexpr const char* kThisMachine = "127.0.0.1";
 
 // `Packets` creates the datagrams of a frame.
 template <class Packets>
@@ -107,6 +106,28 @@ std::unique_ptr<Sender> opentrack_sender(const Destination& destination) {
     // Before the first face the pose is unknown, which differs from a head at the camera.
     return outgoing.frame.head ? Datagrams{protocols::opentrack_packet(outgoing.frame)}
                                : Datagrams();
+  });
+}
+
+std::unique_ptr<Sender> vrchat_sender(const Destination& requested) {
+  Destination destination = requested;
+  constexpr std::uint16_t kVrchat = 9000;
+  constexpr std::string_view kReserved = " #*,?[]{}";  // in OSC addresses
+  protocols::VrchatOptions options{destination.take("prefix", "")};
+  const std::string eyes = destination.take("eyes", "native");
+  if (options.prefix.find_first_of(kReserved) != std::string::npos) {
+    destination.fail("prefix: contains a character that OSC reserves (got '" + options.prefix +
+                     "')");
+  }
+  if (eyes != "native" && eyes != "none") {
+    destination.fail("eyes: expected native or none (got '" + eyes + "')");
+  }
+  options.native_eyes = eyes == "native";
+  if (!options.prefix.empty() && !options.prefix.ends_with('/')) {
+    options.prefix += '/';
+  }
+  return sender(destination, kVrchat, [options](const Outgoing& outgoing) {
+    return protocols::vrchat_packets(outgoing.frame, options);
   });
 }
 

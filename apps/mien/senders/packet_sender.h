@@ -13,6 +13,7 @@ std::unique_ptr<Sender> vmc_sender(const Destination& destination);
 std::unique_ptr<Sender> live_link_sender(const Destination& destination);
 std::unique_ptr<Sender> openseeface_sender(const Destination& destination);
 std::unique_ptr<Sender> opentrack_sender(const Destination& destination);
+std::unique_ptr<Sender> vrchat_sender(const Destination& destination);
 std::unique_ptr<Sender> json_sender(const Destination& destination);
 
 }  // namespace mien::app

@@ -7,6 +7,7 @@
 #include "apps/mien/senders/ifacialmocap_sender.h"
 #include "apps/mien/senders/line_sender.h"
 #include "apps/mien/senders/packet_sender.h"
+#include "apps/mien/senders/vts_sender.h"
 
 namespace mien::app {
 namespace {
@@ -16,11 +17,13 @@ struct Scheme {
   std::unique_ptr<Sender> (*open)(const Destination& destination);
 };
 
-constexpr std::array<Scheme, 6> kSchemes = {{{"vmc", vmc_sender},
+constexpr std::array<Scheme, 8> kSchemes = {{{"vmc", vmc_sender},
                                              {"llf", live_link_sender},
                                              {"ifm", ifacialmocap_sender},
                                              {"osf", openseeface_sender},
                                              {"opentrack", opentrack_sender},
+                                             {"vrchat", vrchat_sender},
+                                             {"vts", vts_sender},
                                              {"jsonl", json_sender}}};
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "apps/mien/system/tcp_socket.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/socket_calls.h"
@@ -44,7 +45,25 @@ bool listens(sockets::Handle handle, std::uint16_t port) {
 
 }  // namespace
 
-TcpConnection::TcpConnection(TcpConnection&& other) noexcept : handle_(other.handle_) {
+TcpConnection::TcpConnection(const SocketAddress& server) {
+  const auto handle = ::socket(server.family(), SOCK_STREAM, 0);
+  handle_ = static_cast<std::intptr_t>(handle);
+  if (handle_ < 0) {
+    connect_error_ = sockets::last_error();
+    return;
+  }
+  sockets::prepare(handle);
+  set_flag(handle, IPPROTO_TCP, TCP_NODELAY);
+  const sockaddr_storage address = sockets::storage(server);
+  if (::connect(handle, reinterpret_cast<const sockaddr*>(&address),
+                static_cast<socklen_t>(server.bytes.size())) != 0 &&
+      !sockets::connecting()) {
+    connect_error_ = sockets::last_error();
+  }
+}
+
+TcpConnection::TcpConnection(TcpConnection&& other) noexcept
+    : handle_(other.handle_), connect_error_(std::move(other.connect_error_)) {
   other.handle_ = -1;
 }
 
@@ -52,6 +71,17 @@ TcpConnection::~TcpConnection() {
   if (handle_ >= 0) {
     sockets::close(native(handle_));
   }
+}
+
+TcpConnection::Connected TcpConnection::connected(std::string& reason) const {
+  reason = connect_error_;
+  if (reason.empty()) {
+    if (!sockets::wait(native(handle_), sockets::Event::kWritable, milliseconds(0))) {
+      return Connected::kNotYet;
+    }
+    reason = sockets::connect_error(native(handle_));
+  }
+  return reason.empty() ? Connected::kYes : Connected::kFailed;
 }
 
 TcpConnection::Received TcpConnection::receive(std::string& bytes, std::size_t max_bytes,
@@ -83,6 +113,15 @@ bool TcpConnection::send(std::string_view bytes, milliseconds within) {
     }
   }
   return true;
+}
+
+bool TcpConnection::send_some(std::string& bytes) {
+  const auto sent =
+      ::send(native(handle_), bytes.data(), static_cast<sockets::Length>(bytes.size()), 0);
+  if (sent > 0) {
+    bytes.erase(0, static_cast<std::size_t>(sent));
+  }
+  return sent >= 0 || sockets::would_block();
 }
 
 TcpListener::TcpListener(std::uint16_t port, const std::string& what) {

@@ -1,4 +1,4 @@
-// TCP sockets of a server that this machine alone can reach.
+// TCP sockets: clients, and servers that this machine alone can reach.
 #pragma once
 
 #include <chrono>
@@ -8,27 +8,40 @@
 #include <string>
 #include <string_view>
 
+#include "apps/mien/system/socket_address.h"
+
 namespace mien::app {
 
-// A connection that a client opened. It may be used by one thread only.
+// It may be used by one thread only.
 class TcpConnection {
  public:
   enum class Received { kBytes, kNothing, kClosed };
+  enum class Connected { kYes, kNotYet, kFailed };
 
+  // Begins to connect, without waiting. A failure is reported by `connected`.
+  explicit TcpConnection(const SocketAddress& server);
   TcpConnection(TcpConnection&& other) noexcept;
   TcpConnection& operator=(TcpConnection&&) = delete;
   ~TcpConnection();
+
+  // Whether the connection to the server exists; does not wait. Sets `reason` if it returns
+  // kFailed.
+  [[nodiscard]] Connected connected(std::string& reason) const;
 
   // Appends at most `max_bytes`. Waits for the first of them until the time has passed.
   Received receive(std::string& bytes, std::size_t max_bytes, std::chrono::milliseconds within);
   // Returns false if the client has closed, or does not accept all bytes within the time.
   bool send(std::string_view bytes, std::chrono::milliseconds within);
+  // Sends what is possible without waiting, and removes it from `bytes`. Returns false if the
+  // connection has failed.
+  bool send_some(std::string& bytes);
 
  private:
   friend class TcpListener;
   explicit TcpConnection(std::intptr_t handle) : handle_(handle) {}
 
   std::intptr_t handle_;
+  std::string connect_error_;
 };
 
 class TcpListener {

@@ -6,21 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "apps/mien/system/socket_address.h"
+
 namespace mien::app {
-
-// The operating system's socket address as bytes; empty: no address.
-struct UdpAddress {
-  std::string bytes;
-
-  [[nodiscard]] bool loopback() const;
-  [[nodiscard]] std::uint16_t port() const;
-  [[nodiscard]] UdpAddress with_port(std::uint16_t port) const;
-  bool operator==(const UdpAddress&) const = default;
-};
 
 struct Datagram {
   std::string bytes;  // truncated to `max_bytes`
-  UdpAddress from;
+  SocketAddress from;
 };
 
 class UdpSocket {
@@ -37,7 +29,7 @@ class UdpSocket {
 
   // Returns false if the packet could not be sent at once.
   bool send(std::string_view packet) { return send(packet, peer_); }
-  bool send(std::string_view packet, const UdpAddress& to);
+  bool send(std::string_view packet, const SocketAddress& to);
 
   // Returns the next received packet, truncated to `max_bytes`.
   std::optional<Datagram> receive(std::size_t max_bytes);
@@ -46,7 +38,7 @@ class UdpSocket {
   UdpSocket(const std::string& host, std::uint16_t port, const std::string& what, bool bound);
 
   std::intptr_t handle_ = -1;
-  UdpAddress peer_;
+  SocketAddress peer_;
 };
 
 }  // namespace mien::app

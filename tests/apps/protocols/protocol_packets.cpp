@@ -17,6 +17,8 @@
 #include "apps/protocols/openseeface.h"
 #include "apps/protocols/opentrack.h"
 #include "apps/protocols/vmc.h"
+#include "apps/protocols/vrchat.h"
+#include "apps/protocols/vts.h"
 
 namespace {
 
@@ -60,6 +62,14 @@ const std::map<std::string, std::function<Packets(const animation::Frame&)>> kPr
     {"vmc", vmc},
     {"llf", live_link},
     {"osf", openseeface},
+    {"vrchat",
+     [](const animation::Frame& frame) {
+       return vrchat_packets(frame, {"FT/", true});
+     }},
+    {"vts",
+     [](const animation::Frame& frame) {
+       return Packets{vts_injection_request(frame, VtsControls().set())};
+     }},
     {"ifm", [](const animation::Frame& frame) { return Packets{ifacialmocap_text(frame, '-')}; }},
     {"ifm2", [](const animation::Frame& frame) { return Packets{ifacialmocap_text(frame, '&')}; }},
     {"opentrack", [](const animation::Frame& frame) { return Packets{opentrack_packet(frame)}; }}};

@@ -12,6 +12,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import avatar_values
 import live_packets as decode
 from live_packets import ARKIT
 
@@ -177,6 +178,38 @@ class Protocols(unittest.TestCase):
                 left, right = eyes_of(frame)
                 self.near(got["leftEye"], degrees(left), 1e-4)
                 self.near(got["rightEye"], degrees(right), 1e-4)
+
+    def same_values(self, got, wanted, tolerance=1e-6):
+        self.assertEqual(sorted(got), sorted(wanted))
+        self.near([got[name] for name in sorted(got)], [wanted[name] for name in sorted(got)], tolerance)
+
+    def test_vrchat(self):
+        for frame, packets in zip(self.frames, packets_of("vrchat", self.frames)):
+            got, tracking = decode.vrchat(packets), frame["status"] == "tracking"
+            self.assertEqual(got["active"], [tracking] * 3)
+            self.same_values(got["parameters"], avatar_values.vrchat(frame))
+            wanted = avatar_values.native_eyes(frame) if tracking else {}
+            self.assertEqual(list(got["native"]), list(wanted))
+            for name, values in wanted.items():
+                self.near(got["native"][name], values)
+        self.assertIn(b"/avatar/parameters/FT/v2/JawOpen\0", packets[-1] + packets[-2])
+        nothing, = packets_of("vrchat", [{"t_ns": 0, "status": "searching", "controls": {}}])
+        self.assertEqual(decode.vrchat(nothing), {"active": [False] * 3, "parameters": {}, "native": {}})
+
+    def test_vts(self):
+        for frame, (packet,) in zip(self.frames, packets_of("vts", self.frames)):
+            request = json.loads(packet)
+            self.assertEqual((request["apiName"], request["apiVersion"], request["messageType"]),
+                             ("VTubeStudioPublicAPI", "1.0", "InjectParameterDataRequest"))
+            data = request["data"]
+            self.assertEqual((data["faceFound"], data["mode"]), (frame["status"] == "tracking", "set"))
+            got = {value["id"]: value["value"] for value in data["parameterValues"]}
+            self.assertEqual(len(got), len(data["parameterValues"]))
+            self.same_values(got, avatar_values.vts(frame), 1e-12)
+        self.assertEqual(len(avatar_values.CUSTOM), 50)
+        self.assertTrue(all(name.isalnum() and 4 <= len(name) <= 32 for name in got))
+        nothing, = packets_of("vts", [{"t_ns": 0, "status": "searching", "controls": {}}])
+        self.assertEqual(nothing, [b""])
 
     def test_opentrack(self):
         for frame, (packet,) in zip(self.frames, packets_of("opentrack", self.frames)):

@@ -23,6 +23,17 @@ std::string last_error() { return std::strerror(errno); }
 
 bool would_block() { return errno == EAGAIN || errno == EINTR; }
 
+bool connecting() { return errno == EINPROGRESS; }
+
+std::string connect_error(Handle handle) {
+  int error = 0;
+  socklen_t bytes = sizeof error;
+  if (getsockopt(handle, SOL_SOCKET, SO_ERROR, &error, &bytes) != 0) {
+    error = errno;
+  }
+  return error == 0 ? "" : std::strerror(error);
+}
+
 bool wait(Handle handle, Event event, std::chrono::milliseconds within) {
   pollfd waiting = {handle, static_cast<short>(event == Event::kReadable ? POLLIN : POLLOUT), 0};
   return poll(&waiting, 1, static_cast<int>(within.count())) > 0;

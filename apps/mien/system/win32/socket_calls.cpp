@@ -30,6 +30,17 @@ std::string last_error() { return std::system_category().message(WSAGetLastError
 
 bool would_block() { return WSAGetLastError() == WSAEWOULDBLOCK; }
 
+bool connecting() { return would_block(); }
+
+std::string connect_error(Handle handle) {
+  int error = 0;
+  socklen_t bytes = sizeof error;
+  if (getsockopt(handle, SOL_SOCKET, SO_ERROR, reinterpret_cast<char*>(&error), &bytes) != 0) {
+    error = WSAGetLastError();
+  }
+  return error == 0 ? "" : std::system_category().message(error);
+}
+
 bool wait(Handle handle, Event event, std::chrono::milliseconds within) {
   WSAPOLLFD waiting = {handle,
                        static_cast<SHORT>(event == Event::kReadable ? POLLRDNORM : POLLWRNORM), 0};
