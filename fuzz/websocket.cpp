@@ -1,6 +1,6 @@
-// The bytes are what a server sends to the sender of VTube Studio: its response to the handshake, if
-// it begins like one, and frames. Messages must not depend on how the bytes are divided, and must
-// keep the limits.
+// The bytes are what a server sends to the sender of VTube Studio: its response to the handshake,
+// if it begins like one, and frames. Messages must not depend on how the bytes are divided, and
+// must keep the limits.
 #include <algorithm>
 #include <optional>
 #include <string>

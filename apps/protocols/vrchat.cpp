@@ -119,10 +119,8 @@ constexpr Parameter kWhole[] = {
     {"MouthUpperX", {{term("mouthRight"), term("mouthLeft", -1.0f)}}},
     {"MouthLowerX", {{term("mouthRight"), term("mouthLeft", -1.0f)}}},
     {"MouthOpen",
-     {{term("mouthUpperUpLeft", 0.25f),
-       term("mouthUpperUpRight", 0.25f),
-       term("mouthLowerDownLeft", 0.25f),
-       term("mouthLowerDownRight", 0.25f)}}},
+     {{term("mouthUpperUpLeft", 0.25f), term("mouthUpperUpRight", 0.25f),
+       term("mouthLowerDownLeft", 0.25f), term("mouthLowerDownRight", 0.25f)}}},
     {"MouthRaiserUpper", {{term("mouthShrugUpper")}}},
     {"MouthRaiserLower", {{term("mouthShrugLower")}}},
     {"LipSuck", {{term("mouthRollUpper", 0.5f), term("mouthRollLower", 0.5f)}}},
@@ -227,8 +225,7 @@ void add_native_eyes(const animation::Frame& frame, std::vector<std::string>& me
   const double closed = 0.5 * (frame.controls[formats::control("eyeBlinkLeft")] +
                                frame.controls[formats::control("eyeBlinkRight")]);
   if (formats::driven(closed)) {
-    messages.push_back(
-        message("/tracking/eye/EyesClosedAmount", {static_cast<float>(closed)}));
+    messages.push_back(message("/tracking/eye/EyesClosedAmount", {static_cast<float>(closed)}));
   }
 }
 

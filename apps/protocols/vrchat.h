@@ -18,12 +18,13 @@ struct VrchatParameter {
   double value;      // 0..1; -1..1 for directions and opposites
 };
 
-// The parameters v2/NAME. Unsupported controls count as 0; a parameter of which all controls are
-// unsupported is absent. EyeLeftX and the like are 1 at 45 degrees; right and up are positive.
+// The parameters v2/NAME. Unsupported controls count as 0; a parameter without a
+// supported control is absent. EyeLeftX and the like are 1 at 45 degrees; right and up are
+// positive.
 [[nodiscard]] std::vector<VrchatParameter> vrchat_parameters(const animation::Frame& frame);
 
 struct VrchatOptions {
-  std::string prefix;      // before "v2/": empty, or "FT/"
+  std::string prefix;       // before "v2/": empty, or "FT/"
   bool native_eyes = true;  // /tracking/eye/
 };
 

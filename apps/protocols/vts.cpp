@@ -192,9 +192,8 @@ std::string vts_authentication_request(std::string_view token) {
 std::string vts_creation_request(std::size_t index) {
   const std::string_view name = formats::kArkitNames[index];
   return request("ParameterCreation", name,
-                 R"("parameterName":")" + vts_custom_name(index) +
-                     R"(","explanation":"ARKit's )" + std::string(name) +
-                     R"(, 0 to 1","min":0,"max":1,"defaultValue":0)");
+                 R"("parameterName":")" + vts_custom_name(index) + R"(","explanation":"ARKit's )" +
+                     std::string(name) + R"(, 0 to 1","min":0,"max":1,"defaultValue":0)");
 }
 
 std::string vts_injection_request(const animation::Frame& frame, const VtsControls& custom) {

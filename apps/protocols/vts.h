@@ -24,7 +24,7 @@ struct VtsParameter {
 
 // VTube Studio's own face parameters. FaceAngle in degrees, FacePosition in cm: the subject's right
 // and up are positive. MouthSmile and brows are 0.5 at rest. Unsupported controls count as 0; a
-// parameter of which all controls are unsupported is absent. FacePositionZ is absent, because
+// parameter without a supported control is absent. FacePositionZ is absent, because
 // sources differ on its sign.
 [[nodiscard]] std::vector<VtsParameter> vts_parameters(const animation::Frame& frame);
 
@@ -38,8 +38,8 @@ struct VtsParameter {
 [[nodiscard]] std::string vts_authentication_request(std::string_view token);
 // Creates the custom parameter of a control. The answer has the control as `request`.
 [[nodiscard]] std::string vts_creation_request(std::size_t control);
-// Sets the parameters of a frame; `custom`: the controls whose parameters have been created. Empty if
-// there is nothing to set, which VTube Studio rejects.
+// Sets the parameters of a frame; `custom`: the controls whose parameters have been created. Empty
+// if nothing can be set: VTube Studio rejects empty lists.
 [[nodiscard]] std::string vts_injection_request(const animation::Frame& frame,
                                                 const VtsControls& custom);
 

@@ -145,9 +145,7 @@ bool WebSocketReader::read_frame(Frame& frame) {
 
 // Lengths from 126 on follow in 2 or 8 bytes.
 bool WebSocketReader::read_length(Frame& frame, std::size_t& header_bytes) {
-  const std::size_t length_bytes = frame.bytes == kLength16   ? 2
-                                   : frame.bytes == kLength64 ? 8
-                                                              : 0;
+  const std::size_t length_bytes = frame.bytes == kLength16 ? 2 : frame.bytes == kLength64 ? 8 : 0;
   if (bytes_.size() < header_bytes + length_bytes) {
     return false;
   }

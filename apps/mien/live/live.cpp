@@ -141,12 +141,15 @@ class Live {
     }
   }
 
+  static Failure advised_failure(const Failure& failure) {
+    return {failure.code(), advised(CaptureKind::kCamera, failure.what()), failure.details()};
+  }
+
   void start_inputs() {
     try {
       inputs_.start(begin_ns_);
     } catch (const Failure& failure) {  // ffmpeg is missing, or the name is invalid
-      throw Failure(failure.code(), advised(CaptureKind::kCamera, failure.what()),
-                    failure.details());
+      throw advised_failure(failure);
     }
   }
 
@@ -156,8 +159,7 @@ class Live {
       return inputs_.camera().newest(until_ns);
     } catch (const Failure& failure) {
       if (!interrupted()) {
-        throw Failure(failure.code(), advised(CaptureKind::kCamera, failure.what()),
-                      failure.details());
+        throw advised_failure(failure);
       }
       return nullptr;
     }

@@ -152,8 +152,7 @@ class VtsSender : public Sender {
       token_ = answer->token;
       keep_token();
       authenticate();
-    } else if (answer->kind == VtsAnswerKind::kAuthentication &&
-               phase_ == Phase::kAuthenticating) {
+    } else if (answer->kind == VtsAnswerKind::kAuthentication && phase_ == Phase::kAuthenticating) {
       take_authentication(*answer);
     } else if (answer->kind == VtsAnswerKind::kCreation) {
       add_custom(answer->request);
@@ -264,10 +263,9 @@ std::unique_ptr<Sender> vts_sender(const Destination& requested) {
     }
     token_file = name_of(folder / "vts-token");
   }
-  return std::make_unique<VtsSender>(destination,
-                                     destination.host.empty() ? kThisMachine : destination.host,
-                                     destination.port == 0 ? kVtsPort : destination.port,
-                                     std::move(token_file));
+  return std::make_unique<VtsSender>(
+      destination, destination.host.empty() ? kThisMachine : destination.host,
+      destination.port == 0 ? kVtsPort : destination.port, std::move(token_file));
 }
 
 }  // namespace mien::app

@@ -1,8 +1,8 @@
 // A WebSocket connection to a server, without TLS. No function waits.
 //
 // Not a library: Debian's libwebsockets and IXWebSocket link TLS libraries and have no packages for
-// the Windows, macOS and static builds; Boost.Beast, which is header-only, would add more to the
-// program than all senders take.
+// the Windows, macOS and static builds; Boost.Beast, which is header-only, adds 390 KB to a
+// program.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,8 @@ class WebSocketClient {
   WebSocketClient(const WebSocketClient&) = delete;
   WebSocketClient& operator=(const WebSocketClient&) = delete;
 
-  // Sends and receives what is possible now. Returns false if the connection has failed or ended.
+  // Sends and receives as much as possible now. Returns false if the connection has failed or
+  // ended.
   bool update();
   [[nodiscard]] bool is_open() const { return phase_ == Phase::kOpen; }
   [[nodiscard]] const std::string& reason() const { return reason_; }  // of the end

@@ -32,7 +32,7 @@ class TcpConnection {
   Received receive(std::string& bytes, std::size_t max_bytes, std::chrono::milliseconds within);
   // Returns false if the client has closed, or does not accept all bytes within the time.
   bool send(std::string_view bytes, std::chrono::milliseconds within);
-  // Sends what is possible without waiting, and removes it from `bytes`. Returns false if the
+  // Sends as much as possible without waiting, and removes it from `bytes`. Returns false if the
   // connection has failed.
   bool send_some(std::string& bytes);
 
