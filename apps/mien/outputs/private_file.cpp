@@ -34,9 +34,6 @@ std::optional<std::string> private_line(const std::string& path) {
 // Restricts the file before it has content.
 void write_private_line(const std::string& path, const std::string& line, const std::string& what) {
   std::error_code failed;
-  if (const fs::path folder = path_of(path).parent_path(); !folder.empty()) {
-    fs::create_directories(folder, failed);  // a failure is that of the file
-  }
   PartialFile file(path, TemporaryFile::Ending::kAny);
   fs::permissions(path_of(file.name()), fs::perms::owner_read | fs::perms::owner_write, failed);
   std::FILE* stream = failed ? nullptr : file.open();

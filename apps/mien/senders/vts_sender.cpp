@@ -1,7 +1,9 @@
 // Speaks VTube Studio's plugin API, one step per frame.
 #include "apps/mien/senders/vts_sender.h"
 
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "apps/mien/outputs/private_file.h"
@@ -261,6 +263,8 @@ std::unique_ptr<Sender> vts_sender(const Destination& requested) {
     if (folder.empty()) {
       destination.fail("no folder for settings is known; add ?token=FILE");
     }
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);  // a failure is that of the file
     token_file = name_of(folder / "vts-token");
   }
   return std::make_unique<VtsSender>(
