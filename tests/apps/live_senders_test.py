@@ -19,8 +19,9 @@ import unittest
 import avatar_values
 import fake_vts
 import live_packets as decode
+from datagrams import Receiver
 from fake_vts import BINARY, CLOSE, PATIENCE, PING, PONG, TEXT, FakeVts
-from live_page import Live, Receiver, Shared, arguments
+from live_page import Live, Shared, arguments
 
 NO_INPUT = ("--camera", "none", "--mic", "none")  # frames without a face
 
@@ -268,7 +269,7 @@ class Values(Shared):
     def send(self, destination):
         """A run that also sends JSON lines, to compare with."""
         receiver = self.enterContext(Receiver())
-        live = self.live("--mic", "none", "--lod", 1, "--send", destination, "--send", f"jsonl://127.0.0.1:{receiver.socket.getsockname()[1]}")
+        live = self.live("--mic", "none", "--lod", 1, "--send", destination, "--send", f"jsonl://127.0.0.1:{receiver.port}")
         return live, receiver
 
     def vts(self, server):
@@ -280,7 +281,7 @@ class Values(Shared):
             deadline = time.monotonic() + PATIENCE
             while time.monotonic() < deadline:  # until the custom parameters exist
                 data = server.injections.get(timeout=PATIENCE)
-                if any(self.same_values(data, frame) for frame in dict(receiver.packets).values()):
+                if any(self.same_values(data, frame) for frame in map(json.loads, list(receiver.kept))):
                     break
             else:
                 self.fail(f"{data} equals no frame")
@@ -302,7 +303,7 @@ class Values(Shared):
             server.injections.get(timeout=PATIENCE)
             live.state(lambda state: state["dropped_packets"] >= 3)
             self.assertEqual(server.injections.qsize(), 3)  # 4 without an answer
-            count = len(receiver.packets)
+            count = len(receiver.kept)
             receiver.wait(lambda packets: len(packets) >= count + 3)
             live.state(lambda state: detail(state).startswith("not connected: no answer"))
 
@@ -346,7 +347,7 @@ class Values(Shared):
             live.state(lambda state: state["senders"][0]["paused"])
             while not server.injections.empty():
                 server.injections.get()
-            count = len(receiver.packets)
+            count = len(receiver.kept)
             receiver.wait(lambda packets: len(packets) >= count + 5)
             self.assertLessEqual(server.injections.qsize(), 4)  # those that were on their way
 
@@ -371,7 +372,7 @@ class Values(Shared):
                         all(abs(a - b) < 1e-5 for name in native for a, b in zip(got["native"][name], native[name], strict=True)))
             self.assertEqual(got["active"], [True] * 3)
             self.assertGreater(len(got["parameters"]), 20)
-            receiver.wait(lambda packets: any(same(frame) for frame in packets.values()))
+            receiver.wait(lambda packets: any(same(json.loads(packet)) for packet in packets))
 
 
 if __name__ == "__main__":
