@@ -1,7 +1,8 @@
 // glTF 2.0 animation of morph weights, head and eyes, as .glb or as .gltf with embedded data.
 //
-// Nodes: root > head > leftEye, rightEye, face. The mesh of `face` is a small triangle with 52
-// empty morph targets, so that animation programs show 52 named curves (mesh.extras.targetNames).
+// Nodes: root > head > leftEye, rightEye, face; root > body, which follows the position of the
+// head. Their meshes are the avatar of the pages; that of `face` has 52 morph targets
+// (mesh.extras.targetNames).
 // Keys are at the frames, in seconds from the first; a frame whose fp32 time equals the previous
 // one is omitted. Head and eyes have keys for frames that have them. animation.extras.mien has data
 // without a place in glTF: start_ns, the time of the first frame; states, one letter (s, t, l) per

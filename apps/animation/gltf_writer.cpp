@@ -1,10 +1,13 @@
 // Writes animations as glTF.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "apps/animation/avatar_model.h"
 #include "apps/animation/base64.h"
 #include "apps/animation/glb.h"
 #include "apps/animation/gltf.h"
@@ -15,10 +18,17 @@
 namespace mien::animation {
 namespace {
 
-constexpr int kHead = 1, kLeftEye = 2, kRightEye = 3, kFace = 4;  // nodes
+constexpr int kHead = 1, kLeftEye = 2, kRightEye = 3, kFace = 4, kBody = 5;  // nodes
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedByte = 5121;
+constexpr int kVertices = 34962, kIndices = 34963;  // targets of buffer views
 
 void put_float(std::string& bytes, double value) {
   put_u32(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+}
+
+void put_short(std::string& bytes, std::uint16_t value) {
+  bytes += static_cast<char>(value & 255);
+  bytes += static_cast<char>(value >> 8);
 }
 
 // A list of JSON objects.
@@ -117,7 +127,14 @@ class Document {
          {&weights, &head.channel, &moves, &left.channel, &right.channel}) {
       add_channel(*channel);
     }
-    add_triangle();
+    const AvatarModel model = avatar_model();
+    for (const auto& target : model.targets) {
+      targets_.add("{\"POSITION\":" + std::to_string(add_target(target)) + "}");
+    }
+    add_mesh("face", model.face);
+    add_mesh("body", model.body);
+    add_mesh("eye", model.eye);
+    eyes_ = model.eye_centres;
   }
 
   // `buffer_uri` is empty if the buffer is a chunk of the file.
@@ -126,20 +143,16 @@ class Document {
     for (const std::string_view name : formats::kArkitNames) {
       names.append(names.empty() ? "\"" : ",\"").append(name).append("\"");
     }
-    std::string targets;
-    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
-      targets += std::string(i == 0 ? "" : ",") + "{\"POSITION\":" + std::to_string(still_) + "}";
-    }
     return "{\"asset\":{\"version\":\"2.0\",\"generator\":\"mien\"},\"scene\":0,"
            "\"scenes\":[{\"nodes\":[0]}],"
-           "\"nodes\":[{\"name\":\"root\",\"children\":[1]},"
-           "{\"name\":\"head\",\"children\":[2,3,4]},{\"name\":\"leftEye\"},"
-           "{\"name\":\"rightEye\"},{\"name\":\"face\",\"mesh\":0}],"
-           "\"meshes\":[{\"name\":\"face\",\"primitives\":[{\"attributes\":{\"POSITION\":" +
-           std::to_string(corners_) + "},\"targets\":[" + targets + "]}],\"weights\":[" +
-           zeros(formats::kControlCount) + "],\"extras\":{\"targetNames\":[" + names + "]}}]," +
-           (states_.empty() ? "" : animation()) + "\"accessors\":" + accessors_.text() +
-           ",\"bufferViews\":" + views_.text() +
+           "\"nodes\":[{\"name\":\"root\",\"children\":[1,5]},"
+           "{\"name\":\"head\",\"children\":[2,3,4]},{\"name\":\"leftEye\"," +
+           eye(0) + "},{\"name\":\"rightEye\"," + eye(1) +
+           "},{\"name\":\"face\",\"mesh\":0},{\"name\":\"body\",\"mesh\":1}],"
+           "\"materials\":[{\"name\":\"mien\",\"pbrMetallicRoughness\":"
+           "{\"metallicFactor\":0,\"roughnessFactor\":0.7}}],\"meshes\":" +
+           meshes(names) + "," + (states_.empty() ? "" : animation()) +
+           "\"accessors\":" + accessors_.text() + ",\"bufferViews\":" + views_.text() +
            ",\"buffers\":[{\"byteLength\":" + std::to_string(bytes_.size()) +
            (buffer_uri.empty() ? "" : ",\"uri\":\"" + buffer_uri + "\"") + "}]}";
   }
@@ -157,6 +170,28 @@ class Document {
     }
   }
 
+  [[nodiscard]] std::string eye(std::size_t side) const {
+    return "\"mesh\":2,\"translation\":" + list_of(eyes_[side]);
+  }
+
+  // Only the face has morph targets.
+  [[nodiscard]] std::string meshes(const std::string& target_names) const {
+    List list;
+    for (const Mesh& mesh : meshes_) {
+      const bool face = mesh.name == "face";
+      list.add("{\"name\":\"" + mesh.name + "\",\"primitives\":[{\"attributes\":{\"POSITION\":" +
+               std::to_string(mesh.positions) + ",\"NORMAL\":" + std::to_string(mesh.normals) +
+               ",\"COLOR_0\":" + std::to_string(mesh.colors) +
+               "},\"indices\":" + std::to_string(mesh.triangles) + ",\"material\":0" +
+               (face ? ",\"targets\":" + targets_.text() : "") + "}]" +
+               (face ? ",\"weights\":[" + zeros(formats::kControlCount) +
+                           "],\"extras\":{\"targetNames\":[" + target_names + "]}"
+                     : "") +
+               "}");
+    }
+    return list.text();
+  }
+
   static std::string zeros(std::size_t count) {
     std::string text = "0";
     for (std::size_t i = 1; i < count; ++i) {
@@ -165,16 +200,22 @@ class Document {
     return text;
   }
 
-  std::size_t add_accessor(const std::string& data, const char* type, std::size_t count,
-                           const std::string& bounds, bool of_vertices) {
+  // Returns the buffer view's index. Its data are aligned to 4 bytes.
+  std::size_t add_view(const std::string& data, int target = 0) {
     const std::size_t view =
         views_.add("{\"buffer\":0,\"byteOffset\":" + std::to_string(bytes_.size()) +
                    ",\"byteLength\":" + std::to_string(data.size()) +
-                   (of_vertices ? ",\"target\":34962}" : "}"));
+                   (target == 0 ? "}" : ",\"target\":" + std::to_string(target) + "}"));
     bytes_ += data;
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    return view;
+  }
+
+  std::size_t add_accessor(std::size_t view, const char* type, std::size_t count,
+                           const std::string& more = "", int component = kFloat) {
     return accessors_.add("{\"bufferView\":" + std::to_string(view) +
-                          ",\"componentType\":5126,\"type\":\"" + type +
-                          "\",\"count\":" + std::to_string(count) + bounds + "}");
+                          ",\"componentType\":" + std::to_string(component) + ",\"type\":\"" +
+                          type + "\",\"count\":" + std::to_string(count) + more + "}");
   }
 
   // All digits of the fp32, so that every reader gets the same number.
@@ -187,28 +228,97 @@ class Document {
     const std::size_t components =
         std::string_view(channel.path()) == "weights" ? formats::kControlCount : 1;
     const std::size_t input = add_accessor(
-        channel.times(), "SCALAR", channel.keys(),
-        ",\"min\":[" + exact(channel.first()) + "],\"max\":[" + exact(channel.last()) + "]", false);
+        add_view(channel.times()), "SCALAR", channel.keys(),
+        ",\"min\":[" + exact(channel.first()) + "],\"max\":[" + exact(channel.last()) + "]");
     const std::size_t output =
-        add_accessor(channel.values(), channel.type(), channel.keys() * components, "", false);
+        add_accessor(add_view(channel.values()), channel.type(), channel.keys() * components);
     const std::size_t sampler = samplers_.add(
         "{\"input\":" + std::to_string(input) + ",\"output\":" + std::to_string(output) +
         ",\"interpolation\":\"" + (holds_ ? "STEP" : "LINEAR") + "\"}");
-    channels_.add("{\"sampler\":" + std::to_string(sampler) + ",\"target\":{\"node\":" +
-                  std::to_string(channel.node()) + ",\"path\":\"" + channel.path() + "\"}}");
+    add_moved(sampler, channel.node(), channel.path());
+    if (channel.node() == kHead && std::string_view(channel.path()) == "translation") {
+      add_moved(sampler, kBody, channel.path());
+    }
   }
 
-  void add_triangle() {
-    std::string corners, still;
-    for (const double side : {0.0, 0.0, 0.0, 0.001, 0.0, 0.0, 0.0, 0.001, 0.0}) {
-      put_float(corners, side);
-      put_float(still, 0.0);
+  void add_moved(std::size_t sampler, int node, const char* path) {
+    channels_.add("{\"sampler\":" + std::to_string(sampler) +
+                  ",\"target\":{\"node\":" + std::to_string(node) + ",\"path\":\"" + path + "\"}}");
+  }
+
+  struct Mesh {
+    std::string name;
+    std::size_t positions, normals, colors, triangles;  // accessors
+  };
+
+  static std::string list_of(const Vector& vector) {
+    return "[" + exact(vector[0]) + "," + exact(vector[1]) + "," + exact(vector[2]) + "]";
+  }
+
+  // With a leading comma.
+  static std::string bounds_of(const std::vector<Vector>& vectors) {
+    Vector low = vectors[0], high = vectors[0];
+    for (const Vector& vector : vectors) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], vector[k]);
+        high[k] = std::max(high[k], vector[k]);
+      }
     }
-    const std::string millimetre = exact(0.001f);
-    corners_ =
-        add_accessor(corners, "VEC3", 3,
-                     ",\"min\":[0,0,0],\"max\":[" + millimetre + "," + millimetre + ",0]", true);
-    still_ = add_accessor(still, "VEC3", 3, ",\"min\":[0,0,0],\"max\":[0,0,0]", true);
+    return ",\"min\":" + list_of(low) + ",\"max\":" + list_of(high);
+  }
+
+  static void put_vector(std::string& bytes, const Vector& vector) {
+    for (const float value : vector) {
+      put_float(bytes, static_cast<double>(value));
+    }
+  }
+
+  std::size_t add_vectors(const std::vector<Vector>& vectors, bool bounded) {
+    std::string data;
+    for (const Vector& vector : vectors) {
+      put_vector(data, vector);
+    }
+    return add_accessor(add_view(data, kVertices), "VEC3", vectors.size(),
+                        bounded ? bounds_of(vectors) : "");
+  }
+
+  void add_mesh(const char* name, const AvatarMesh& mesh) {
+    std::string colors, triangles;
+    for (const auto& color : mesh.colors) {
+      colors.append(color.begin(), color.end());
+    }
+    for (const std::uint16_t index : mesh.triangles) {
+      put_short(triangles, index);
+    }
+    meshes_.push_back({name, add_vectors(mesh.positions, true), add_vectors(mesh.normals, false),
+                       add_accessor(add_view(colors, kVertices), "VEC4", mesh.colors.size(),
+                                    ",\"normalized\":true", kUnsignedByte),
+                       add_accessor(add_view(triangles, kIndices), "SCALAR", mesh.triangles.size(),
+                                    "", kUnsignedShort)});
+  }
+
+  // Sparse: most targets move few vertices.
+  std::size_t add_target(const std::vector<Vector>& offsets) {
+    std::string moved, values;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      if (offsets[i] != Vector{}) {
+        put_short(moved, static_cast<std::uint16_t>(i));
+        put_vector(values, offsets[i]);
+        ++count;
+      }
+    }
+    std::string sparse;
+    if (count > 0) {
+      const std::size_t indices = add_view(moved), offset_view = add_view(values);
+      sparse = ",\"sparse\":{\"count\":" + std::to_string(count) +
+               ",\"indices\":{\"bufferView\":" + std::to_string(indices) +
+               ",\"componentType\":" + std::to_string(kUnsignedShort) +
+               "},\"values\":{\"bufferView\":" + std::to_string(offset_view) + "}}";
+    }
+    return accessors_.add("{\"componentType\":" + std::to_string(kFloat) +
+                          ",\"type\":\"VEC3\",\"count\":" + std::to_string(offsets.size()) +
+                          bounds_of(offsets) + sparse + "}");
   }
 
   [[nodiscard]] std::string animation() const {
@@ -231,8 +341,9 @@ class Document {
   bool holds_ = true;   // for all frames
   std::array<bool, formats::kControlCount> driven_{};
   std::string bytes_;
-  List accessors_, views_, samplers_, channels_;
-  std::size_t corners_ = 0, still_ = 0;
+  List accessors_, views_, samplers_, channels_, targets_;
+  std::vector<Mesh> meshes_;
+  std::array<Vector, 2> eyes_{};
 };
 
 class GltfWriter : public WholeClipWriter {

@@ -2,6 +2,7 @@
 """Packs a .mien file without loss (docs/format.md), for programs with embedded weights. Standard library only.
 
 usage: pack_weights.py FILE.mien PACKED
+       pack_weights.py --any FILE PACKED        FILE: any content of a multiple of 64 bytes
 mien_weights_create restores the file byte for byte.
 """
 import math
@@ -11,6 +12,7 @@ from collections import Counter
 from pathlib import Path
 
 MAGIC = b"\x89MIEP\r\n\x1a"
+WEIGHTS = b"\x89MIEN\r\n\x1a"
 HEADER_BYTES = 32
 BLOCK_BYTES = 1 << 16    # at most
 SYMBOLS = 256
@@ -72,6 +74,8 @@ def cost(counts):
 
 def cuts_of(file):
     """Allowed bounds of blocks: those of tensors of a weight file (docs/format.md), and positions inside tensors longer than a block."""
+    if not file.startswith(WEIGHTS):
+        return [*range(0, len(file), 4096), len(file)]
     networks, layers, tensors = struct.unpack_from("<3I", file, 20)
     records = range(64 * (1 + networks + layers), 64 * (1 + networks + layers + tensors), 64)
     bounds = [0, *(struct.unpack_from("<Q", file, at + 32)[0] for at in records), len(file)]
@@ -104,12 +108,15 @@ def packed(file):
 
 
 def main():
-    if len(sys.argv) != 3:
+    arguments = sys.argv[1:]
+    any_content = arguments[:1] == ["--any"]
+    if len(arguments) != 2 + any_content:
         sys.exit(__doc__)
-    file = Path(sys.argv[1]).read_bytes()
-    if not file.startswith(b"\x89MIEN\r\n\x1a"):
-        sys.exit(f"{sys.argv[1]}: not a .mien file")
-    Path(sys.argv[2]).write_bytes(packed(file))
+    source, target = arguments[-2:]
+    file = Path(source).read_bytes()
+    if not any_content and not file.startswith(WEIGHTS):
+        sys.exit(f"{source}: not a .mien file")
+    Path(target).write_bytes(packed(file))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 // Tests of our glTF with other programs: Khronos' validator reports no error and no warning, and three.js plays it.
 // usage: gltf_test.mjs MIEN_PROGRAM PACKAGES        PACKAGES fetched by scripts/peers/install_gltf.sh
+// The file contains the avatar that apps/web/avatar/bake.mjs writes.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -64,6 +65,42 @@ for (const name of ['clip.glb', 'clip.gltf']) {
   assert.ok(Math.abs(head.position.z + 0.65) < 1e-4, `${head.position.z}`);
   const eye = new THREE.Euler().setFromQuaternion(gltf.scene.getObjectByName('leftEye').quaternion, 'YXZ');
   assert.ok(Math.abs(eye.x - 0.485 / 2) < 1e-4, `${eye.x}`); // looks down
+}
+
+// The avatar: 0.15 m wide between the ears; each control except gaze to the side, which turns the eyes, moves its side of the face.
+{
+  const bytes = fs.readFileSync(file('clip.glb'));
+  const gltf = await new Promise((resolve, reject) =>
+    new GLTFLoader().parse(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '', resolve, reject));
+  const mesh = gltf.scene.getObjectByName('face'), { position, normal, color } = mesh.geometry.attributes;
+  assert.equal(normal.count, position.count);
+  assert.equal(color.count, position.count);
+  const size = new THREE.Box3().setFromBufferAttribute(position).getSize(new THREE.Vector3());
+  assert.ok(size.x > 0.15 && size.x < 0.2 && size.y > 0.15 && size.y < 0.25, `${size.toArray()}`);
+  for (const [name, target] of Object.entries(mesh.morphTargetDictionary)) {
+    const moved = mesh.geometry.morphAttributes.position[target], largest = { left: 0, right: 0 };
+    for (let i = 0; i < moved.count; ++i) {
+      const offset = Math.hypot(moved.getX(i), moved.getY(i), moved.getZ(i)), side = position.getX(i) > 0 ? 'left' : 'right';
+      largest[side] = Math.max(largest[side], offset);
+    }
+    if (/eyeLook(In|Out)/.test(name)) continue;
+    const sided = !/^(jaw|mouth)(Left|Right)$/.test(name), sides = [!sided || !/Right$/.test(name), !sided || !/Left$/.test(name)];
+    assert.ok(largest.left > 0.002 || !sides[0], `${name}: ${JSON.stringify(largest)}`);
+    assert.ok(largest.right > 0.002 || !sides[1], `${name}: ${JSON.stringify(largest)}`);
+    if (/^eye(?!Look)/.test(name)) assert.ok(Math.min(largest.left, largest.right) < 0.001, `${name}: ${JSON.stringify(largest)}`);
+  }
+  const mixer = new THREE.AnimationMixer(gltf.scene);
+  mixer.clipAction(gltf.animations[0]).play();
+  mixer.setTime(0.5);
+  const [head, body] = ['head', 'body'].map((name) => gltf.scene.getObjectByName(name));
+  assert.deepEqual(body.position.toArray(), head.position.toArray());
+  assert.equal(body.quaternion.w, 1);
+
+  const source = new URL('../..', import.meta.url).pathname;
+  execFileSync(process.execPath, [source + 'apps/web/avatar/bake.mjs', file('avatar.bin')]);
+  execFileSync('python3', [source + 'scripts/package/pack_weights.py', '--any', file('avatar.bin'), file('avatar.packed')]);
+  assert.ok(fs.readFileSync(file('avatar.packed')).equals(fs.readFileSync(source + 'apps/animation/avatar.packed')),
+    'apps/animation/avatar.packed: not the avatar of apps/web/avatar (run bake.mjs)');
 }
 fs.rmSync(folder, { recursive: true });
 console.log('6 files valid without errors and warnings, 2 played in three.js');

@@ -27,4 +27,5 @@ for version in "${versions[@]}"; do
   validator=$(find "$environment" -path '*/bl_pkg/cli/blender_ext.py')  # what blender --command extension validate runs
   "$environment/bin/python" "$validator" validate build/blender/mien_face.zip
   "$environment/bin/python" tests/blender/in_blender_test.py "$program" "$PWD" build/blender/mien_face.zip build/blender/avatar.glb
+  "$environment/bin/python" tests/blender/program_avatar_test.py "$program" "$PWD"
 done

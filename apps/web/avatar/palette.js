@@ -1,6 +1,6 @@
 // Colours of the avatar, in the non-linear units that the shader multiplies by light.
 
-const rgb = hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16) / 255);
+export const rgb = hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16) / 255);
 
 export const palette = {
   skin: rgb('#f0bd9b'), lid: rgb('#e9ae8c'), lidEdge: rgb('#c4766a'), blush: rgb('#e8836f'), freckle: rgb('#c98a66'), ear: rgb('#e59c80'),
