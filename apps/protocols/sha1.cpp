@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <initializer_list>
 
 #include "apps/protocols/bytes.h"
 
@@ -14,11 +15,20 @@ constexpr std::size_t kBlockBytes = 64, kLengthBytes = 8;
 constexpr std::size_t kRounds = 80;
 using State = std::array<std::uint32_t, 5>;
 
+// The sum modulo 2^32.
+std::uint32_t sum(std::initializer_list<std::uint32_t> numbers) {
+  std::uint64_t total = 0;
+  for (const std::uint32_t number : numbers) {
+    total += number;
+  }
+  return static_cast<std::uint32_t>(total & 0xffffffffU);
+}
+
 std::uint32_t mixed(std::size_t round, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-  return round < 20   ? ((b & c) | (~b & d)) + 0x5a827999U
-         : round < 40 ? (b ^ c ^ d) + 0x6ed9eba1U
-         : round < 60 ? ((b & c) | (b & d) | (c & d)) + 0x8f1bbcdcU
-                      : (b ^ c ^ d) + 0xca62c1d6U;
+  return round < 20   ? sum({(b & c) | (~b & d), 0x5a827999U})
+         : round < 40 ? sum({b ^ c ^ d, 0x6ed9eba1U})
+         : round < 60 ? sum({(b & c) | (b & d) | (c & d), 0x8f1bbcdcU})
+                      : sum({b ^ c ^ d, 0xca62c1d6U});
 }
 
 void add_block(std::string_view block, State& state) {
@@ -31,14 +41,15 @@ void add_block(std::string_view block, State& state) {
   }
   auto [a, b, c, d, e] = state;
   for (std::size_t i = 0; i < kRounds; ++i) {
-    const std::uint32_t next = std::rotl(a, 5) + mixed(i, b, c, d) + e + words[i];
+    const std::uint32_t next = sum({std::rotl(a, 5), mixed(i, b, c, d), e, words[i]});
     e = d;
     d = c;
     c = std::rotl(b, 30);
     b = a;
     a = next;
   }
-  state = {state[0] + a, state[1] + b, state[2] + c, state[3] + d, state[4] + e};
+  state = {sum({state[0], a}), sum({state[1], b}), sum({state[2], c}), sum({state[3], d}),
+           sum({state[4], e})};
 }
 
 }  // namespace

@@ -81,7 +81,10 @@ class Live:
             while time.monotonic() < deadline:
                 block = b""
                 while not block.endswith(b"\n\n"):
-                    block += response.readline()
+                    line = response.readline()
+                    if not line:
+                        raise ConnectionError("the program has closed the events")
+                    block += line
                 lines = dict(line.split(": ", 1) for line in block.decode().split("\n") if ": " in line)
                 if lines:
                     event, data = lines["event"], json.loads(lines["data"])
