@@ -162,14 +162,28 @@ mien_status StepMaker::put(const Args& args, Step& step) const {
   return step.kernel == nullptr ? MIEN_ERROR_UNSUPPORTED_LAYER : MIEN_OK;
 }
 
+mien_status StepMaker::put_activation(const LayerRecord& l, Map x, Map y, Step& step) const {
+  Curve curve{};
+  if (is_curve(static_cast<LayerActivation>(l.activation), curve)) {
+    return put(kernels::CurveArgs{x.data, y.data, curve, pixels(y.shape), y.shape.c}, step);
+  }
+  return put(kernels::ActivateArgs{x.data, y.data, activation(l), pixels(y.shape), y.shape.c},
+             step);
+}
+
+mien_status StepMaker::put_block(std::uint32_t layer, std::uint32_t depthwise_layer,
+                                 const Memory& own, Step& step) const {
+  kernels::InvertedResidualArgs args = block(layer, depthwise_layer);
+  const mien_status status =
+      plan_.weights_bytes(layer) > 0 ? quantize_block(layer, own.weights, args) : MIEN_OK;
+  return status == MIEN_OK ? put(args, step) : status;
+}
+
 mien_status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const {
   const LayerRecord& l = plan_.layer(layer);
   const std::uint32_t depthwise_layer = plan_.fused_depthwise(layer);
   if (depthwise_layer != kNoIndex) {
-    kernels::InvertedResidualArgs args = block(layer, depthwise_layer);
-    const mien_status status =
-        plan_.weights_bytes(layer) > 0 ? quantize_block(layer, own.weights, args) : MIEN_OK;
-    return status == MIEN_OK ? put(args, step) : status;
+    return put_block(layer, depthwise_layer, own, step);
   }
   const Map x = map(l.input), y = map(layer + 1);
   switch (static_cast<LayerOp>(l.op)) {
@@ -189,14 +203,8 @@ mien_status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) 
       return put(max_pool(l, x, y), step);
     case LayerOp::kAdd:
       return put(add(l, x, y), step);
-    case LayerOp::kActivation: {
-      Curve curve{};
-      if (is_curve(static_cast<LayerActivation>(l.activation), curve)) {
-        return put(kernels::CurveArgs{x.data, y.data, curve, pixels(y.shape), y.shape.c}, step);
-      }
-      return put(kernels::ActivateArgs{x.data, y.data, activation(l), pixels(y.shape), y.shape.c},
-                 step);
-    }
+    case LayerOp::kActivation:
+      return put_activation(l, x, y, step);
     case LayerOp::kSoftmax:
       return put(kernels::SoftmaxArgs{x.data, y.data, pixels(y.shape), y.shape.c}, step);
     case LayerOp::kGlobalAveragePool:

@@ -78,6 +78,10 @@ class StepMaker {
 
   template <class Args>
   [[nodiscard]] mien_status put(const Args& args, Step& step) const;
+  [[nodiscard]] mien_status put_activation(const formats::LayerRecord& l, Map x, Map y,
+                                           Step& step) const;
+  [[nodiscard]] mien_status put_block(std::uint32_t layer, std::uint32_t depthwise_layer,
+                                      const Memory& own, Step& step) const;
 
   const Plan& plan_;
   const formats::FileView& file_;

@@ -289,6 +289,34 @@ void set_int8(float bound, const std::int8_t* quads, const float* offsets,
   }
 }
 
+std::string description(const Layers& layers, const ResidualSlice* slice) {
+  const Shape& shape = layers.shape;
+  return shape.window.text() + ", " + std::to_string(shape.in_c) + " to " +
+         std::to_string(shape.hidden_c) + " to " + std::to_string(shape.out_c) +
+         (slice != nullptr ? ", residual" : "") +
+         (layers.bound1 > 0.0f ? ", 8 bits in expand" : "") +
+         (layers.bound3 > 0.0f ? ", 8 bits in project" : "");
+}
+
+void set_weights(const Addresses& buffers, const Activations& activations, const Shape& shape,
+                 InvertedResidualArgs& args) {
+  args.expand.weights = shape.in_c == 0 ? nullptr : buffers.halves(1);
+  args.expand.bias = buffers.halves(2);
+  args.expand.activation = activations.expand.spec(nullptr);
+  args.depthwise.weights = buffers.halves(3);
+  args.depthwise.bias = buffers.halves(4);
+  args.depthwise.activation = activations.depthwise.spec(nullptr);
+  args.project.weights = buffers.halves(5);
+  args.project.bias = buffers.halves(6);
+  args.project.activation = activations.project.spec(nullptr);
+  if (has_quantized_weights(shape)) {
+    args.expand.pairs = buffers.int16s(13);
+    args.project.pairs = buffers.int16s(14);
+    args.expand.scales = buffers.floats(15);
+    args.project.scales = buffers.floats(16);
+  }
+}
+
 Case make(RandomValues& random, Layers layers, const Activations& activations,
           const ResidualSlice* slice) {
   const Shape shape = layers.shape;
@@ -301,11 +329,7 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
       slice != nullptr ? random.map(slice->pixels(), shape.out_c) : std::vector<float>();
   const Tiling& t = shape.tiling;
   Case test;
-  test.shape = shape.window.text() + ", " + std::to_string(shape.in_c) + " to " +
-               std::to_string(shape.hidden_c) + " to " + std::to_string(shape.out_c) +
-               (slice != nullptr ? ", residual" : "") +
-               (layers.bound1 > 0.0f ? ", 8 bits in expand" : "") +
-               (layers.bound3 > 0.0f ? ", 8 bits in project" : "");
+  test.shape = description(layers, slice);
   test.buffers = {
       reads(layers.x),
       reads(layers.w1),
@@ -333,22 +357,7 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
   test.bind = [=](const Addresses& buffers) {
     InvertedResidualArgs args = sizes(shape);
     args.x = buffers.floats(0);
-    const bool quantized = has_quantized_weights(shape);
-    args.expand.weights = shape.in_c == 0 ? nullptr : buffers.halves(1);
-    args.expand.bias = buffers.halves(2);
-    args.expand.activation = activations.expand.spec(nullptr);
-    args.depthwise.weights = buffers.halves(3);
-    args.depthwise.bias = buffers.halves(4);
-    args.depthwise.activation = activations.depthwise.spec(nullptr);
-    args.project.weights = buffers.halves(5);
-    args.project.bias = buffers.halves(6);
-    args.project.activation = activations.project.spec(nullptr);
-    if (quantized) {
-      args.expand.pairs = buffers.int16s(13);
-      args.project.pairs = buffers.int16s(14);
-      args.expand.scales = buffers.floats(15);
-      args.project.scales = buffers.floats(16);
-    }
+    set_weights(buffers, activations, shape, args);
     set_int8(bounds[0], buffers.int8s(17), buffers.floats(18), args.expand);
     set_int8(bounds[1], buffers.int8s(19), buffers.floats(20), args.project);
     if (taken.h > 0) {
