@@ -13,7 +13,7 @@ namespace mien::animation {
 namespace {
 
 constexpr float kMetres = 0.08f;  // half the width of the head
-constexpr float kUnit = kMetres / 1024.0f;
+constexpr float kStep = kMetres / 1024.0f, kTargetStep = kMetres / 512.0f;
 constexpr std::array<Vector, 2> kEyes = {{{0.395f, 0.075f, 0.515f}, {-0.395f, 0.075f, 0.515f}}};
 
 struct Part {
@@ -111,9 +111,9 @@ std::uint8_t linear(int srgb) {
   return static_cast<std::uint8_t>(std::lround(255.0f * std::pow(value, 2.2f)));
 }
 
-Vector metres(const std::array<int, 3>& steps) {
-  return {static_cast<float>(steps[0]) * kUnit, static_cast<float>(steps[1]) * kUnit,
-          static_cast<float>(steps[2]) * kUnit};
+Vector metres(const std::array<int, 3>& steps, float step) {
+  return {static_cast<float>(steps[0]) * step, static_cast<float>(steps[1]) * step,
+          static_cast<float>(steps[2]) * step};
 }
 
 void add_triangles(const Part& part, std::size_t base, std::vector<std::uint16_t>& triangles) {
@@ -204,7 +204,7 @@ void read_targets(Reader& reader, AvatarModel& model) {
     }
     model.targets[i].reserve(model.face.positions.size());
     for (std::size_t vertex = 0; vertex < model.face.positions.size(); ++vertex) {
-      model.targets[i].push_back(metres(offsets[i][vertex]));
+      model.targets[i].push_back(metres(offsets[i][vertex], kTargetStep));
     }
   }
 }
@@ -220,7 +220,7 @@ AvatarModel avatar_model() {
     AvatarMesh& mesh = *meshes[part.node];
     add_triangles(part, mesh.positions.size(), mesh.triangles);
     for (std::size_t i = part.first; i < part.first + part.size(); ++i) {
-      mesh.positions.push_back(metres(positions[i]));
+      mesh.positions.push_back(metres(positions[i], kStep));
       mesh.colors.push_back(
           {linear(colors[i][0]), linear(colors[i][1]), linear(colors[i][2]), 255});
     }

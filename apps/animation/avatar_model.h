@@ -3,11 +3,20 @@
 // apps/web/avatar/bake.mjs writes it; the program contains it packed (docs/format.md). The content
 // is a sequence of integers, each 2 |v| or, if negative, 2 |v| - 1, as a varint (7 bits per byte,
 // the lowest first):
-//   number of parts; of each part: node, rows, columns, flags (1 columns closed, 2 triangles seen
-//   from the other side, 4 rows closed, 8 x how columns mirror: 0 same, 1 around a closed ring, 2
-//   reversed), and the distance to its mirrored part positions in 1/1024 of half the width of the
-//   head: x of all vertices, then y, then z colours, 0..255, in the same order offsets of the 52
-//   targets in the same order; those of the right side minus the mirrored ones of the left side
+//
+// - number of parts;
+//
+// - of each part: node, rows, columns, flags (1 columns closed, 2 triangles seen from the other
+//   side, 4 rows closed, 8 x how columns mirror: 0 same, 1 around a closed ring, 2 reversed), and
+//   the distance to its mirrored part;
+//
+// - positions in 1/1024 of half the width of the head: x of all vertices, then y, then z;
+//
+// - colours, 0..255, in the same order;
+//
+// - offsets of the 52 targets in 1/512, in the same order; those of the right side minus the
+//   mirrored ones of the left side.
+//
 // A number of a grid lacks the sum of its neighbours on the left and below minus the one between
 // them.
 #pragma once

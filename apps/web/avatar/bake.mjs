@@ -12,6 +12,7 @@ import {makeMouth} from './mouth.js';
 import {rgb} from './palette.js';
 
 const quantum = 1024;  // steps per unit of the avatar
+const coarser = 2;     // steps of the neutral face per step of a target
 const head = 0, body = 1, eye = 2;  // nodes
 
 // Every `step`-th of `count` rows or columns, and the last one unless the rows or columns are closed.
@@ -105,11 +106,14 @@ const residuals = values => [0, 1, 2].flatMap(k => parts.list.flatMap(({rows, co
     return value(at) - left - below + (column > 0 && at >= columns ? value(at - columns - 1) : 0);
   })));
 
+// Rounds halves towards 0, so that both sides are alike.
+const nearest = value => Math.sign(value) * Math.ceil(Math.abs(value) - 0.5);
+
 const targets = new Map();
 for (const name of controlNames) {
   // As in ARKit, mouthClose is relative to an open jaw.
   const base = name === 'mouthClose' ? {jawOpen: 1} : {}, from = parts.positions(base), left = targets.get(name.replace(/Right$/, 'Left'));
-  const offsets = parts.positions({...base, [name]: 1}).map((value, i) => value - from[i]);
+  const offsets = parts.positions({...base, [name]: 1}).map((value, i) => nearest((value - from[i]) / coarser));
   targets.set(name, {offsets, coded: left ? offsets.map((value, i) =>
     value - (i % 3 === 0 ? -1 : 1) * left.offsets[mirrored[Math.floor(i / 3)] * 3 + i % 3]) : offsets});
 }
