@@ -76,8 +76,9 @@ build_zlib() {  # target
   [ -f "$folder/source/zlib.h" ] || fetch_zlib "$folder" || return 1
   mkdir -p "$folder/$1"
   local source
+  # zlib before 1.3.1 defines fdopen to NULL on macOS unless it is a macro, which the system's header cannot be compiled with.
   for source in "$folder"/source/{adler32,crc32,deflate,inffast,inflate,inftrees,trees,zutil}.c; do
-    "$MIEN_ZIG" cc -target "${ZIG_TARGETS[$1]}" -O2 -fPIC -c "$source" -o "$folder/$1/$(basename "$source" .c).o"
+    "$MIEN_ZIG" cc -target "${ZIG_TARGETS[$1]}" -O2 -fPIC -Dfdopen=fdopen -c "$source" -o "$folder/$1/$(basename "$source" .c).o"
   done
   "$MIEN_ZIG" ar rcs "$library" "$folder/$1"/*.o
 }
