@@ -21,6 +21,7 @@ if ! install_zig; then
   exit
 fi
 export WINEDEBUG=-all WINEPREFIX=$PWD/build/cross/wine
+mkdir -p "$WINEPREFIX"
 work=$PWD/build/zig
 frames=$work/frames.rgb clip=$work/clip.y4m
 ffmpeg -nostdin -v error -y -i tests/data/demo.mp4 -frames:v 30 -s 640x480 -pix_fmt rgb24 -f rawvideo "$frames"
