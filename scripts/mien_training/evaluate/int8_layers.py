@@ -43,6 +43,12 @@ class People:
         self.controls = found.controls[rows].numpy()
 
 
+def rounded_weights(weight):
+    """The weights of each output in multiples of 1/127 of the largest."""
+    scale = weight.abs().amax(1, keepdim=True).clamp_min(1e-20) / 127
+    return torch.round(weight / scale) * scale
+
+
 class Layer:
     """A pointwise convolution; inside `with`, its weights and inputs have 8 bits."""
 
@@ -51,8 +57,7 @@ class Layer:
         after_relu6 = name.endswith("project.0") or name == "tail.2"
         self.low, self.high = (0, 255) if after_relu6 else (-127, 127)
         self.bound, self.work, self.values = None, 0, []
-        scale = self.exact.abs().amax(1, keepdim=True).clamp_min(1e-20) / 127
-        self.rounded = torch.round(self.exact / scale) * scale
+        self.rounded = rounded_weights(self.exact)
 
     def sample(self, _, inputs):
         flat, self.work = inputs[0].flatten(), self.exact.numel() * inputs[0][0, 0].numel()

@@ -18,7 +18,7 @@ from torch import nn
 from mien_convert.atomic_files import whole
 from mien_training.data import face_batches
 from mien_training.data.framing import FRAMINGS
-from mien_training.evaluate.int8_layers import CALIBRATION, Encoder, People
+from mien_training.evaluate.int8_layers import CALIBRATION, Encoder, People, rounded_weights
 from mien_training.networks.shipped_checkpoints import network_of, pass_on
 from mien_training.networks.warm_start import in_order
 from mien_training.networks.weight_reader import metadata
@@ -33,19 +33,17 @@ def through(value, rounded):
 
 
 class QuantizedPointwise(nn.Module):
-    """A pointwise convolution with rounded weights and inputs. `layer`: its range of integers and its bound."""
+    """A pointwise convolution with rounded weights and inputs. `layer`: one of int8_layers.py."""
 
     def __init__(self, layer):
         super().__init__()
-        self.convolution, self.low, self.high, self.bound = layer.convolution, layer.low, layer.high, layer.bound
+        self.layer, self.convolution = layer, layer.convolution
 
     def forward(self, x):
-        factor = self.high / self.bound
-        inside = (x * factor).clamp(self.low, self.high)
-        inputs = through(inside, inside.round()) / factor
-        weight = self.convolution.weight
-        scale = weight.detach().abs().amax(1, keepdim=True).clamp_min(1e-20) / 127
-        return F.conv2d(inputs, through(weight, torch.round(weight / scale) * scale), self.convolution.bias)
+        layer, weight = self.layer, self.convolution.weight
+        inside = x.clamp(layer.low * layer.bound / layer.high, layer.bound)
+        return F.conv2d(through(inside, layer.quantized(x, layer.bound)), through(weight, rounded_weights(weight)),
+                        self.convolution.bias)
 
 
 def quantized(module, layers):
