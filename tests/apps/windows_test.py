@@ -9,13 +9,13 @@ import math
 import os
 import pathlib
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
 import unittest
 
 import report_page
+from datagrams import Receiver
 
 EXE, MIEN, FFMPEG = (str(pathlib.Path(path).resolve()) for path in sys.argv[1:4])
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -166,21 +166,13 @@ class Windows(unittest.TestCase):
         self.assertIn("not there Ünï 顔.mien", done.stderr.decode())
 
     def test_live_sends(self):
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
-            receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
-            receiver.bind(("127.0.0.1", 0))
-            send = f"jsonl://127.0.0.1:{receiver.getsockname()[1]}"
+        with Receiver() as receiver:
+            send = f"jsonl://127.0.0.1:{receiver.port}"
             stats = str(self.folder / "stats.json")
             done = windows("live", "--camera", "test:" + CLIP, "--send", send, "--send", "-", "--stats", stats, "--quiet",
                            "--models", MODELS, "--lod", "1")
             self.assertEqual((done.returncode, done.stderr), (0, b""))
-            receiver.setblocking(False)
-            packets = []
-            try:
-                while True:
-                    packets.append(receiver.recv(65536))
-            except BlockingIOError:
-                pass
+            packets = receiver.packets()
         said = json.loads(pathlib.Path(stats).read_text())
         self.assertEqual(said["frames"], len(packets))
         self.assertGreater(len(packets), 20)  # of 240; depends on the machine
