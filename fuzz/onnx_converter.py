@@ -2,7 +2,7 @@
 """Fuzzes apps/convert/mien_convert with atheris: any file must be converted or rejected in one line.
 scripts/fuzz_convert.sh
 
-usage: onnx_converter.py --seeds FOLDER                      writes the graphs of tests/convert/operator_cases.py there
+usage: onnx_converter.py --seeds FOLDER                      writes the graphs of tests/convert/*_cases.py there
        onnx_converter.py [libFuzzer's options] FOLDER...
 """
 import contextlib
@@ -184,7 +184,8 @@ def let_go_of_comparisons():
 
 def write_seeds(folder):
     import operator_cases
-    for case in (*operator_cases.accepted(), *operator_cases.refused()):
+    import refused_cases
+    for case in (*operator_cases.accepted(), *refused_cases.refused()):
         Path(folder, f"{case.name}.onnx").write_bytes(case.model().SerializeToString())
 
 

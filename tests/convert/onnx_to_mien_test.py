@@ -23,6 +23,7 @@ try:
     import onnx
     import operator_cases
     import random_graphs
+    import refused_cases
     from conversion import Runtime, answered, convert, difference, runtime_is_here, time_axis
 except ModuleNotFoundError as missing:
     print("skipped: missing Python module", missing.name + "; scripts/setup.sh convert installs it")
@@ -113,7 +114,7 @@ class Operators(Folder):
             self.assertLess(difference(got, want), case.rounds * ROUNDED_TOLERANCE or OPERATOR_TOLERANCE)
 
     def test_refusals_name_the_node_and_the_reason(self):
-        for case in [*operator_cases.refused(), *arithmetic_cases.refused()]:
+        for case in [*refused_cases.refused(), *arithmetic_cases.refused()]:
             with self.subTest(case.name):
                 model = self.folder / f"{case.name}.onnx"
                 onnx.save(case.model(), str(model))

@@ -165,75 +165,83 @@ mien_status status_of(InputShape input, const std::function<void(NetworkWriter&)
   return static_cast<mien_status>(validation.status);
 }
 
-TEST(Writer, RejectsInvalidShapes) {
-  using Net = NetworkWriter;
+using Net = NetworkWriter;
+
+constexpr InputShape kMap = {4, 4, 8};
+
+TEST(Writer, RejectsInvalidLayersWithWeights) {
   LayerOptions padded;
   padded.padding = {3, 0, 0, 0};
   LayerOptions prelu;
   prelu.activation = LayerActivation::kPrelu;
-  LayerOptions relu;
-  relu.activation = LayerActivation::kRelu;
-  const InputShape map = {4, 4, 8};
   const auto conv = [](Net& n, const LayerOptions& options) {
     n.output(n.conv2d(0, counting({8, 8, 3, 3}), {}, options));
   };
-  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, {}); }), MIEN_OK);
-  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, padded); }), MIEN_ERROR_WEIGHTS_LAYER_WINDOW);
-  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, prelu); }), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { conv(n, {}); }), MIEN_OK);
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { conv(n, padded); }), MIEN_ERROR_WEIGHTS_LAYER_WINDOW);
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { conv(n, prelu); }), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   EXPECT_EQ(status_of({2, 2, 8}, [&](Net& n) { conv(n, {}); }), MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
   EXPECT_EQ(status_of({4, 4, 7}, [&](Net& n) { conv(n, {}); }), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   EXPECT_EQ(status_of({0, 4, 8}, [&](Net& n) { conv(n, {}); }), MIEN_ERROR_WEIGHTS_NETWORK);
-  EXPECT_EQ(status_of(map,
+  EXPECT_EQ(status_of(kMap,
                       [&](Net& n) {
                         n.output(n.pointwise(0, counting({3, 8}), {1, 2}));
                       }),
             MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
-  EXPECT_EQ(status_of(map,
+  EXPECT_EQ(status_of(kMap,
                       [&](Net& n) {
                         n.output(n.pointwise(0, Array{{3, 8}, {1}}, {}));
                       }),
             MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
-  EXPECT_EQ(status_of(map,
+  EXPECT_EQ(status_of(kMap,
                       [&](Net& n) {
                         n.output(n.pointwise(0, Array{{3, 8}, std::vector<float>(25)}, {}));
                       }),
             MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.pointwise(0, Array{}, {})); }),
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(n.pointwise(0, Array{}, {})); }),
             MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(0, 0, relu)); }),
-            MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION);
-  LayerOptions sparse;  // whose last window would start beyond the map
-  sparse.stride_y = sparse.stride_x = 4;
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }), MIEN_OK);
-  sparse.ceil_mode = true;
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
-            MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
-  for (const auto& [right, bottom] : {std::pair<std::uint16_t, std::uint16_t>{1, 0}, {0, 1}}) {
-    LayerOptions narrower;  // one row or column less, which cannot be halved
-    narrower.padding = {0, 0, bottom, right};
-    EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(n.slice(0, 0, 8, narrower), 0)); }),
-              MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
-  }
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.softmax(1)); }),
-            MIEN_ERROR_WEIGHTS_LAYER_INPUT);
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(0); }), MIEN_ERROR_WEIGHTS_LAYER_INPUT);
-  EXPECT_EQ(status_of(map, [&](Net&) {}), MIEN_ERROR_WEIGHTS_NETWORK);
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.softmax(0), n.output(n.softmax(0)); }),
-            MIEN_ERROR_WEIGHTS_LAYER_INPUT);
-  EXPECT_EQ(status_of(map,
+  EXPECT_EQ(status_of(kMap,
                       [&](Net& n) {
                         n.output(n.causal_conv(0, counting({8, 8, 2}), {}));
                       }),
             MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
   EXPECT_EQ(status_of(
-                map,
+                kMap,
                 [&](Net& n) {
                   n.output(n.fully_connected(0, counting({2, 128}), {}));
                 },
                 true),
             MIEN_ERROR_WEIGHTS_LAYER_OP);
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 65537, 1)); }),
+}
+
+TEST(Writer, RejectsInvalidWindows) {
+  LayerOptions sparse;  // whose last window would start beyond the map
+  sparse.stride_y = sparse.stride_x = 4;
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }), MIEN_OK);
+  sparse.ceil_mode = true;
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
+            MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
+  for (const auto& [right, bottom] : {std::pair<std::uint16_t, std::uint16_t>{1, 0}, {0, 1}}) {
+    LayerOptions narrower;  // one row or column less, which cannot be halved
+    narrower.padding = {0, 0, bottom, right};
+    EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(n.add(n.slice(0, 0, 8, narrower), 0)); }),
+              MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
+  }
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(n.max_pool(0, 65537, 1)); }),
             MIEN_ERROR_WEIGHTS_LAYER_WINDOW);
+}
+
+TEST(Writer, RejectsInvalidLayersWithoutWeights) {
+  LayerOptions relu;
+  relu.activation = LayerActivation::kRelu;
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(n.add(0, 0, relu)); }),
+            MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION);
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(n.softmax(1)); }),
+            MIEN_ERROR_WEIGHTS_LAYER_INPUT);
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.output(0); }), MIEN_ERROR_WEIGHTS_LAYER_INPUT);
+  EXPECT_EQ(status_of(kMap, [&](Net&) {}), MIEN_ERROR_WEIGHTS_NETWORK);
+  EXPECT_EQ(status_of(kMap, [&](Net& n) { n.softmax(0), n.output(n.softmax(0)); }),
+            MIEN_ERROR_WEIGHTS_LAYER_INPUT);
 }
 
 TEST(Writer, RejectsWeightsBeyondFp16) {
