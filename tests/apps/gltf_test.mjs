@@ -1,6 +1,6 @@
 // Tests of our glTF with other programs: Khronos' validator reports no error and no warning, and three.js plays it.
 // usage: gltf_test.mjs MIEN_PROGRAM PACKAGES        PACKAGES fetched by scripts/peers/install_gltf.sh
-// The file contains the avatar that apps/web/avatar/bake.mjs writes.
+// The file contains the avatar that apps/web/avatar/bake.mjs writes, as do recordings of the web page.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -8,6 +8,8 @@ import { createRequire } from 'node:module';
 import os from 'node:os';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { controlNames } from '../../apps/web/avatar/avatar.js';
+import { animationGlb } from '../../apps/web/src/recording/glb.js';
 
 globalThis.ProgressEvent ??= class extends Event {}; // of browsers; three.js fetches data: URIs as they do
 
@@ -27,6 +29,8 @@ async function validate(name) {
   assert.equal(issues.numErrors, 0, JSON.stringify(issues.messages));
   assert.equal(issues.numWarnings, 0, JSON.stringify(issues.messages));
 }
+
+const loadGlb = (name) => new GLTFLoader().parseAsync(new Uint8Array(fs.readFileSync(file(name))).buffer, '');
 
 const frames = [];
 for (let i = 0; i <= 30; ++i) {
@@ -48,7 +52,7 @@ for (const name of ['clip', 'one', 'nobody']) {
 for (const name of ['clip.glb', 'clip.gltf']) {
   const bytes = fs.readFileSync(file(name));
   const data = name.endsWith('.glb') ? bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length) : bytes.toString();
-  const gltf = await new Promise((resolve, reject) => new GLTFLoader().parse(data, '', resolve, reject));
+  const gltf = await new GLTFLoader().parseAsync(data, '');
   const mesh = gltf.scene.getObjectByName('face');
   const head = gltf.scene.getObjectByName('head');
   assert.equal(Object.keys(mesh.morphTargetDictionary).length, 52);
@@ -69,9 +73,7 @@ for (const name of ['clip.glb', 'clip.gltf']) {
 
 // The avatar: 0.15 m wide between the ears; each control except gaze to the side, which turns the eyes, moves its side of the face.
 {
-  const bytes = fs.readFileSync(file('clip.glb'));
-  const gltf = await new Promise((resolve, reject) =>
-    new GLTFLoader().parse(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '', resolve, reject));
+  const gltf = await loadGlb('clip.glb');
   const mesh = gltf.scene.getObjectByName('face'), { position, normal, color } = mesh.geometry.attributes;
   assert.equal(normal.count, position.count);
   assert.equal(color.count, position.count);
@@ -102,5 +104,36 @@ for (const name of ['clip.glb', 'clip.gltf']) {
   assert.ok(fs.readFileSync(file('avatar.packed')).equals(fs.readFileSync(source + 'apps/animation/avatar.packed')),
     'apps/animation/avatar.packed: not the avatar of apps/web/avatar (run bake.mjs)');
 }
+// A recording of the page has the meshes and keys that the program writes for the same frames.
+{
+  fs.writeFileSync(file('page.glb'), animationGlb(frames.map(({ t_ns, status, controls, head, position_m }) => ({
+    tMs: t_ns / 1e6, status, controls: controlNames.map((name) => controls[name] ?? 0), driven: controlNames.map((name) => Number(name in controls)),
+    rotation: [0, Math.sin((head?.yaw_rad ?? 0) / 2), 0, Math.cos((head?.yaw_rad ?? 0) / 2)], translation: position_m ?? [0, 0, 0] })), controlNames));
+  await validate('page.glb');
+  const [page, ours] = await Promise.all(['page.glb', 'clip.glb'].map(loadGlb));
+  const alike = (a, b, most, what) => {
+    assert.equal(a.length, b.length, what);
+    a.forEach((value, i) => assert.ok(Math.abs(value - b[i]) <= most, `${what} ${i}: ${value}, ${b[i]}`));
+  };
+  for (const name of ['face', 'body', 'leftEye', 'rightEye']) {
+    const [a, b] = [page, ours].map(({ scene }) => scene.getObjectByName(name)), of = ({ geometry }) => geometry;
+    alike(a.position.toArray(), b.position.toArray(), 1e-7, `place of ${name}`);
+    alike(of(a).index.array, of(b).index.array, 0, `triangles of ${name}`);
+    for (const [attribute, most] of [['position', 1e-7], ['normal', 1e-3], ['color', 1]]) {
+      alike(of(a).attributes[attribute].array, of(b).attributes[attribute].array, most, `${attribute} of ${name}`);
+    }
+    assert.deepEqual(a.morphTargetDictionary, b.morphTargetDictionary);
+    of(a).morphAttributes.position?.forEach(({ array }, i) => alike(array, of(b).morphAttributes.position[i].array, 1e-7, controlNames[i]));
+  }
+  const tracks = ({ animations: [{ tracks }] }) => tracks.sort((a, b) => (a.name < b.name ? -1 : 1));
+  const [recorded, expected] = [page, ours].map(tracks);
+  assert.deepEqual(recorded.map(({ name }) => name), expected.map(({ name }) => name));
+  recorded.forEach(({ name, times, values }, i) => {
+    alike(times, expected[i].times, 1e-6, `times of ${name}`);
+    alike(values, expected[i].values, 1e-6, name);
+  });
+  const extras = ({ animations: [{ userData }] }) => userData.mien;
+  assert.deepEqual(extras(page), extras(ours));
+}
 fs.rmSync(folder, { recursive: true });
-console.log('6 files valid without errors and warnings, 2 played in three.js');
+console.log('7 files valid without errors and warnings, 2 played in three.js');

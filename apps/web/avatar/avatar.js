@@ -5,11 +5,9 @@
 //
 // Left and right are the subject's: the subject's left is on the right of the image.
 import {rotationOfAngles} from './vectors.js';
-import {makeHead} from './head.js';
-import {makeExpressions, shapeWeights} from './expressions.js';
-import {Eye, eyeState} from './eyes.js';
-import {makeMouth} from './mouth.js';
-import {Brow, makeFigure} from './figure.js';
+import {Face} from './face.js';
+import {eyeState} from './eyes.js';
+import {makeFigure} from './figure.js';
 import {Creases} from './creases.js';
 import {Renderer} from './renderer.js';
 
@@ -30,53 +28,24 @@ const completed = controls => Object.fromEntries(controlNames.map(name => {
   return [name, value > 0 ? Math.min(1, value) : 0];
 }));
 
-// Shared by all avatars, because computing it takes long.
-let expressions;
-const expressionsOf = head => (expressions ??= makeExpressions(head));
-
 const angle = value => (Number.isFinite(value) ? value : 0);
 
-export class Avatar {
+export class Avatar extends Face {
   constructor(canvas) {
-    this.head = makeHead();
-    this.neutral = this.head.mesh.positions.slice();
-    this.expressions = expressionsOf(this.head);
-    this.eyes = [new Eye(1), new Eye(-1)];
-    this.mouth = makeMouth();
-    this.brows = [new Brow(1, this.head), new Brow(-1, this.head)];
-    const moving = [this.head.mesh, ...this.eyes.flatMap(eye => eye.meshes), ...this.brows.map(brow => brow.mesh),
-                    ...this.mouth.map(part => part.mesh)];
+    super();
     this.creases = new Creases();
-    this.renderer = new Renderer(canvas, moving, makeFigure());
+    this.renderer = new Renderer(canvas, this.meshes, makeFigure());
   }
 
   // `smooth` edges take about twice the time without a graphics card.
   draw({controls, pitch = 0, yaw = 0, roll = 0} = {}, {smooth = true} = {}) {
     const c = completed(controls);
-    this.shapeHead(c);
-    for (const part of [...this.eyes, ...this.mouth]) part.update(c);
-    for (const brow of this.brows) brow.update(this.head.mesh.positions);
+    this.pose(c);
     this.creases.update(c);
     this.renderer.draw({
       smooth, rotation: rotationOfAngles({pitch: angle(pitch), yaw: angle(yaw), roll: angle(roll)}),
       creases: this.creases.data,
       pupil: 0.225 - 0.02 * (c.eyeSquintLeft + c.eyeSquintRight), lids: [1, -1].map(side => eyeState(c, side).upper),
     });
-  }
-
-  shapeHead(c) {
-    const {mesh} = this.head, weights = shapeWeights(c);
-    mesh.positions.set(this.neutral);
-    for (const [name, {vertices, offsets}] of this.expressions) {
-      const weight = weights[name];
-      if (!(weight > 0)) continue;
-      for (let i = 0; i < vertices.length; ++i) {
-        const at = vertices[i] * 3;
-        mesh.positions[at] += weight * offsets[i * 3];
-        mesh.positions[at + 1] += weight * offsets[i * 3 + 1];
-        mesh.positions[at + 2] += weight * offsets[i * 3 + 2];
-      }
-    }
-    mesh.updateNormals();
   }
 }

@@ -5,7 +5,7 @@ import {palette} from './palette.js';
 import {Mesh, gridTriangles, gridVertices} from './mesh.js';
 
 const radius = 0.285;
-const centreOf = side => [side * 0.395, 0.075, 0.515];
+export const centreOf = side => [side * 0.395, 0.075, 0.515];
 const outward = 0.07;  // radians between the axis of an eye socket and straight ahead
 const widest = 1.02;    // radians from the middle of the eye to its corners
 const lidColumns = 29, lidRows = 12, ballRows = 18, ballColumns = 28;

@@ -2,7 +2,7 @@
 
 set(avatar_folder ${CMAKE_CURRENT_LIST_DIR})
 # Each after those it imports.
-set(avatar_modules vectors palette mesh head expressions eyes mouth figure creases shaders renderer avatar)
+set(avatar_modules vectors palette mesh head expressions eyes mouth figure face creases shaders renderer avatar)
 set(avatar_files "")
 foreach(module IN LISTS avatar_modules)
   list(APPEND avatar_files ${avatar_folder}/${module}.js)

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
+import {animationGlb} from '../src/recording/glb.js';
 import {morphDrivers} from '../../../bindings/js/matching.js';
 import {bodyModel, dracoModel, headModel, ktx2Model, meshoptModel, vrmBodyModel, vrmModel} from './models.mjs';
 import {openPage, openStudio, until} from './page.mjs';
@@ -111,6 +112,23 @@ async function openBody(name, buffer) {
   for (const [x, y] of arms) assert.ok(y < -0.4 && Math.abs(x) < 0.2, `an arm points to ${x}, ${y}`);
   return {page, context, complaints, view, camera};
 }
+
+test('a saved recording is an avatar whose head fills the view and whose eyes turn', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.setInputFiles('#model', {name: 'mien.glb', mimeType: '', buffer: Buffer.from(animationGlb([], controlNames))});
+  await until(page, () => !document.getElementById('own-face').hidden, 60);
+  const {corners, weight, eye} = await page.evaluate(controls => {
+    const {avatar} = window.page.first, {camera, root} = avatar, face = root.getObjectByName('face');
+    avatar.draw({controls});
+    const heights = [...face.geometry.attributes.position.array].filter((_, i) => i % 3 === 1), onScreen = y => camera.position.clone().set(0, y, 0).project(camera).y;
+    return {eye: root.getObjectByName('leftEye').quaternion.y, corners: [Math.min(...heights), Math.max(...heights)].map(onScreen), weight: face.morphTargetInfluences[face.morphTargetDictionary.jawOpen]};
+  }, controls({jawOpen: 0.5, eyeLookOutLeft: 1}));
+  assert.equal(weight, 0.5);
+  assert.ok(Math.abs(eye - Math.sin(0.485 / 2)) < 1e-6, `${eye}`);
+  assert.ok(corners[0] > -1 && corners[1] < 1 && corners[1] - corners[0] > 1.2, `${corners}`);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
 
 test('the head of a VRM with a body is framed, and arms are lowered', async () => {
   const {context, complaints} = await openBody('body.vrm', vrmBodyModel());

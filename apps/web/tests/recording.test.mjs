@@ -34,10 +34,11 @@ test('Live Link Face has no blend shapes for an empty frame, and no rotation of 
 
 test('the head of a GLB has keys only for a tracked face', () => {
   const file = animationGlb(frames, controlNames), bytes = new DataView(file.buffer).getUint32(12, true);
-  const {animations: [{channels, samplers}], accessors} = JSON.parse(new TextDecoder().decode(file.subarray(20, 20 + bytes)));
+  const {animations: [{channels, samplers, extras}], accessors} = JSON.parse(new TextDecoder().decode(file.subarray(20, 20 + bytes)));
   const keys = (node, path) => {
     const {sampler} = channels.find(({target}) => target.node === node && target.path === path);
     return accessors[samplers[sampler].input].count;
   };
   assert.deepEqual([keys(1, 'rotation'), keys(1, 'translation'), keys(4, 'weights')], [1, 1, 5]);
+  assert.deepEqual(extras.mien, {start_ns: 0, states: 'tlssl', not_driven: []});
 });

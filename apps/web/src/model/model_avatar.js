@@ -31,6 +31,13 @@ export async function openModel(file, canvas) {
 
 const rotation = (pitch, yaw, roll) => new Quaternion().setFromEuler(new Euler(pitch, yaw, roll, 'YXZ'));
 
+// An eyeball that can turn in its place.
+function isAroundOrigin({geometry, isSkinnedMesh}) {
+  if (isSkinnedMesh) return false;
+  geometry.computeBoundingSphere();
+  return geometry.boundingSphere.containsPoint(new Vector3());
+}
+
 class ModelAvatar {
   constructor(gltf, renderer, name) {
     this.vrm = gltf.userData.vrm;
@@ -46,9 +53,14 @@ class ModelAvatar {
   get vocabularies() { return [...new Set(this.targets.map(({vocabulary}) => vocabulary))]; }
 
   bone(name) {
-    let found = this.vrm?.humanoid?.getNormalizedBoneNode(name) ?? null;
+    let found = this.vrm?.humanoid?.getNormalizedBoneNode(name) ?? null, best = 0;
+    const rank = node => (!node.isMesh ? 2 : name.endsWith('Eye') && isAroundOrigin(node) ? 1 : 0);
     const matches = node => boneNames[name].test(node.name.replace(/[^a-z]/gi, '').toLowerCase());
-    if (!this.vrm) this.root.traverse(node => { if (!found && !node.isMesh && matches(node)) found = node; });
+    if (!this.vrm) {
+      this.root.traverse(node => {
+        if (rank(node) > best && matches(node)) [found, best] = [node, rank(node)];
+      });
+    }
     return found && {node: found, rest: found.quaternion.clone()};
   }
 
@@ -97,11 +109,17 @@ class ModelAvatar {
     canvas.addEventListener('dblclick', () => this.controls.reset());
   }
 
-  // The head alone, if the model has a body below it.
+  // The head alone, if the model has a body below it: what hangs on its bone, or else what is above the bone.
   headBounds() {
-    const box = new Box3().setFromObject(this.root, true), all = box.getSize(new Vector3());
-    const at = this.headBone?.node.getWorldPosition(new Vector3()), height = box.max.y - (at?.y ?? 0);
-    if (!at || height <= 0 || at.y - box.min.y < 0.6 * height) return {centre: box.getCenter(new Vector3()), size: Math.max(all.x, all.y)};
+    const boxOf = node => new Box3().setFromObject(node, true), whole = box => {
+      const {x, y} = box.getSize(new Vector3());
+      return {centre: box.getCenter(new Vector3()), size: Math.max(x, y)};
+    };
+    let hasFace = false;
+    this.headBone?.node.traverse(({morphTargetInfluences}) => { hasFace ||= Boolean(morphTargetInfluences); });
+    if (hasFace) return whole(boxOf(this.headBone.node));
+    const box = boxOf(this.root), at = this.headBone?.node.getWorldPosition(new Vector3()), height = box.max.y - (at?.y ?? 0);
+    if (!at || height <= 0 || at.y - box.min.y < 0.6 * height) return whole(box);
     return {centre: new Vector3(at.x, at.y + height * 0.42, at.z), size: height * 1.5};
   }
 
