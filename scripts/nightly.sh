@@ -34,7 +34,7 @@ step output_safety /usr/bin/python3 tests/apps/output_safety_test.py build/relea
 step convert_time /usr/bin/python3 tests/apps/convert_size_test.py build/release/apps/mien/mien time
 step media_matrix /usr/bin/python3 tests/apps/media_matrix_test.py build/release/apps/mien/mien 400
 step public_models env PYTHONPATH=apps/convert /usr/bin/python3 tests/convert/public_models_test.py build/release/apps/mien/mien
-step killed_training env PYTHONPATH=scripts:apps/convert /usr/bin/python3 tests/train/killed_training_test.py
+step killed_training env PYTHONPATH=models/training:apps/convert /usr/bin/python3 tests/train/killed_training_test.py
 step worst_frame scripts/measure/worst_frame.sh
 step blender tests/blender/bpy_test.sh build/release/apps/mien/mien
 step soak scripts/measure/soak.sh

@@ -15,7 +15,7 @@ build() {  # preset, targets
 }
 
 linters() {
-  shellcheck -x scripts/*.sh scripts/*/*.sh tests/*/*.sh bindings/*.sh bindings/*/*.sh
+  shellcheck -x scripts/*.sh scripts/*/*.sh models/training/*/*/*.sh tests/*/*.sh bindings/*.sh bindings/*/*.sh
   scripts/check/format.sh
   cmake --preset tidy >/dev/null  # for clang, whose options clang-tidy understands, file by file
   scripts/check/tidy.py build/tidy

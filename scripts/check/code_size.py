@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Counts the lines of code of scripts/ and fails above a limit.
+"""Counts the lines of code of a folder and fails above a limit.
 
-usage: scripts/check/code_size.py LIMIT [--folders]
+usage: scripts/check/code_size.py FOLDER LIMIT [--folders]
 
 Code is every line of a text file that is not blank, not a comment and not a docstring. Data and generated files do not
 count: *.json, *.npz, and the word list of the spelling check.
@@ -34,18 +34,19 @@ def code_lines(path):
 
 
 def main():
-    listed = subprocess.run(["git", "ls-files", "scripts"], cwd=ROOT, check=True, capture_output=True,
+    top, limit = sys.argv[1], int(sys.argv[2])
+    listed = subprocess.run(["git", "ls-files", top], cwd=ROOT, check=True, capture_output=True,
                             text=True).stdout.split()
     files = [ROOT / name for name in listed if not name.endswith(NOT_CODE)]
     counts, total = Counter(), 0
     for path in filter(Path.exists, files):
-        counts[str(path.relative_to(ROOT / "scripts").parent)] += code_lines(path)
+        counts[str(path.relative_to(ROOT / top).parent)] += code_lines(path)
         total += len(path.read_text().splitlines())
     if "--folders" in sys.argv:
         for folder, count in counts.most_common():
             print(f"{count:6} {folder}")
-    code, limit = sum(counts.values()), int(sys.argv[1])
-    print(f"scripts: {code} lines of code (limit {limit}), {total} lines with comments, docstrings and blank lines")
+    code = sum(counts.values())
+    print(f"{top}: {code} lines of code (limit {limit}), {total} lines with comments, docstrings and blank lines")
     return code > limit
 
 

@@ -9,7 +9,7 @@ set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(TARGETS mien_static mien_shared EXPORT mien)
 install(DIRECTORY include/mien DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-set(left_out)
+set(left_out PATTERN training EXCLUDE)
 if(NOT MIEN_WITH_HIFINET)
   list(APPEND left_out PATTERN hifinet.mien EXCLUDE)
 endif()

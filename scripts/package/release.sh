@@ -56,7 +56,9 @@ make_amalgamation() {
   local folder=$build-amalgamation
   rm -rf "$folder"
   scripts/package/amalgamate.py -o "$folder" >/dev/null
-  cp -r LICENSE models "$folder"
+  mkdir "$folder/models"
+  cp LICENSE "$folder"
+  cp models/*.* "$folder/models"
   packed "$folder" "mien-$version-amalgamation"
 }
 

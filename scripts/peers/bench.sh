@@ -17,7 +17,7 @@ for word in "${@:2}"; do
   esac
 done
 [ ${#documents[@]} -gt 0 ] || [ ${#classes[@]} -gt 0 ] || documents=(peers performance)
-export PYTHONPATH=$PWD/scripts:$PWD/apps/convert:$PWD/bindings/python/src
+export PYTHONPATH=$PWD/models/training:$PWD/apps/convert:$PWD/bindings/python/src
 export MIEN_DATA=${MIEN_DATA:-$PWD/../shared/data}
 work=${MIEN_CACHE:-$HOME/.cache/mien}/peers
 python=$work/venv/bin/python

@@ -135,7 +135,7 @@ TEST(Statistics, AllIsOverControlsAndFrames) {
   EXPECT_FALSE(found.all.correlation);
 }
 
-// The values of the self-test of scripts/mien_training/evaluate/metrics.py.
+// The values of the self-test of models/training/mien_training/evaluate/metrics.py.
 TEST(Statistics, JitterMatchesTheEvaluation) {
   EXPECT_EQ(app::jitter({0, 0, 0, 0, 0, 0}), 0.0);
   EXPECT_EQ(app::jitter({0, 1, 2, 3, 4, 5}), 0.0);

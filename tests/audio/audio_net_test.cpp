@@ -1,5 +1,5 @@
 // Compares models/audionet.mien with PyTorch's outputs for the same features
-// (scripts/mien_training/audio/golden_outputs.py).
+// (models/training/mien_training/audio/golden_outputs.py).
 #include "audio/audio_net.h"
 
 #include <gtest/gtest.h>

@@ -47,7 +47,9 @@ echo "== pkg-config"
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name mien.pc)")
 export PKG_CONFIG_PATH
 pkg-config --exact-version "$version" mien
-test -f "$(pkg-config --variable=modelsdir mien)/basenet.mien"
+models=$(pkg-config --variable=modelsdir mien)
+test -f "$models/basenet.mien"
+test ! -e "$models/training"
 libraries=$(pkg-config --variable=libdir mien)
 read -ra flags <<<"$FLAGS $(pkg-config --cflags mien)"
 read -ra link <<<"$(pkg-config --libs mien)"

@@ -18,7 +18,8 @@ using tracker::control_named;
 constexpr std::size_t kJaw = control_named("jawOpen");
 constexpr std::int64_t kMs = 1'000'000;
 
-// The order of AudioNet's outputs: SPEECH_CONTROLS in scripts/mien_training/audio/audio_net.py.
+// The order of AudioNet's outputs: SPEECH_CONTROLS in
+// models/training/mien_training/audio/audio_net.py.
 constexpr std::array<std::string_view, kSpeechOutputs> kOutputs = {
     "jawOpen",           "jawForward",         "mouthClose",          "mouthFunnel",
     "mouthPucker",       "mouthRollLower",     "mouthRollUpper",      "mouthShrugLower",

@@ -109,7 +109,7 @@ class Packed(unittest.TestCase):
     def on_gpu(self, folder, *arguments):
         asked = {"MIEN_CACHE": folder, "PYTHON": sys.executable, "DEVICE": "cpu", "STEPS": "6",
                  "OPTIONS": "--batch 3 --portraits 4"}
-        command = [ROOT / "scripts/mien_training/phase2/on_gpu.sh", *arguments]
+        command = [ROOT / "models/training/mien_training/phase2/on_gpu.sh", *arguments]
         return subprocess.run([str(c) for c in command], env={**os.environ, **asked}, capture_output=True, text=True)
 
     def test_trains_from_the_packed_file_to_decoders_that_can_be_exported(self):

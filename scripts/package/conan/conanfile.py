@@ -29,7 +29,7 @@ class Mien(ConanFile):
 
     def export_sources(self):
         for part in ("kernels", "formats", "engine", "audio", "tracker", "include", "models", "scripts/package"):
-            copy(self, f"{part}/*", self._repository, self.export_sources_folder)
+            copy(self, f"{part}/*", self._repository, self.export_sources_folder, excludes="models/training/*")
         for name in ("CMakeLists.txt", "LICENSE"):
             copy(self, name, self._repository, self.export_sources_folder)
 

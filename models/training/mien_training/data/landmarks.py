@@ -207,7 +207,7 @@ def main():
     shape = template(frontal)
     surface = RigSurface()
     vertices, weights = place(surface, mean_shape(quiet))
-    np.savez(ROOT / "scripts/mien_training/data/rig_landmarks.npz", vertices=vertices, weights=weights)
+    np.savez(ROOT / "models/training/mien_training/data/rig_landmarks.npz", vertices=vertices, weights=weights)
     on_rig = (surface.vertices[vertices] * weights[..., None]).sum(1)
     table = {
         "points": [{"index": i, "name": name, "mediapipe": k} for i, (name, k) in enumerate(lp.named_points())],

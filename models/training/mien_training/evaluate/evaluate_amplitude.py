@@ -181,9 +181,9 @@ def markdown(report):
         [clips](clips.md), held-out portraits, and rendered test people with known controls. The
         [overview](README.md) has the other figures.""")
     lines += out.prose(
-        f"""Blinks were counted by eye (`scripts/mien_training/evaluate/blinks.json`); a peak is the highest mean of
-        both eyes within {FRAMES_AROUND} frames of a blink. Closed eyes have an aperture below 0.09 of their width.
-        Deviation: standard deviation relative to the truth's.""")
+        f"""Blinks were counted by eye (`models/training/mien_training/evaluate/blinks.json`); a peak is the highest
+        mean of both eyes within {FRAMES_AROUND} frames of a blink. Closed eyes have an aperture below 0.09 of their
+        width. Deviation: standard deviation relative to the truth's.""")
     rows = [[rows[0][0], *(row[1] for row in rows)] for rows in zip(*(summary(r) for r in report.values()))]
     lines += out.table(["figure", *map(out.level, report)], rows)
     return "\n".join(lines)

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Continues the training of a network of models/: the encoder on stills that are rendered meanwhile, streamed features, decoders. It keeps
 # what exists, so the same command resumes, and continues with more HOURS. It does not change models/; mien_training.networks.export does.
-# usage: scripts/mien_training/phase2/continue_training.sh basenet|hifinet HOURS [NAME]
+# usage: models/training/mien_training/phase2/continue_training.sh basenet|hifinet HOURS [NAME]
 #   HOURS   of training of the encoder, 0 for decoders only
 #   NAME    of the run, default NETWORK_continued: checkpoints in $MIEN_CACHE/runs/NAME, features in $MIEN_CACHE/stream/NAME
 # MIEN_DATA, MIEN_CACHE, PYTHON (default python3, with PyTorch), PROCESSES (default: one per processor); learning RATE (8e-4) of the encoder;
 # PEOPLE (2000) and VALIDATION (240) people of the features; STEPS (3000) of the decoders
 set -euo pipefail
-cd "$(dirname "$0")/../../.."
-export PYTHONPATH=$PWD/scripts:$PWD/apps/convert OMP_NUM_THREADS=1
+cd "$(dirname "$0")/../../../.."
+export PYTHONPATH=$PWD/models/training:$PWD/apps/convert OMP_NUM_THREADS=1
 network=$1 hours=$2 name=${3:-$1_continued}
 python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} validation=${VALIDATION:-240} steps=${STEPS:-3000}
 cache=${MIEN_CACHE:-$HOME/.cache/mien}

@@ -29,7 +29,7 @@ class Rig:
         self.corner_uv, self.uv = rig["gpu_f"].astype(np.int32), rig["gpu_uv"].astype(np.float32)
         self.materials = {str(n): (int(a), int(b)) for n, (a, b) in zip(rig["mat_names"], rig["mat_range"])}
         self.ibug68 = rig["landmarks68"].astype(np.int64)
-        landmarks = np.load(ROOT / "scripts/mien_training/data/rig_landmarks.npz")
+        landmarks = np.load(ROOT / "models/training/mien_training/data/rig_landmarks.npz")
         self.landmark_vertices, self.landmark_weights = landmarks["vertices"], landmarks["weights"]
 
     def identity(self, coefficients):
