@@ -350,6 +350,30 @@ class Page(unittest.TestCase):
                 papers.add(self.js("getComputedStyle(document.body).backgroundColor"))
         self.assertEqual(len(papers), 2)
 
+    def test_a_phone_shows_clip_face_and_controls_together(self):
+        for width, height in ((390, 670), (390, 844), (844, 390)):
+            self.open(width=width, height=height)
+            boxes = {id: self.js(f"(({{top, bottom, left, right}}) => [left, top, right, bottom])(document.getElementById('{id}').getBoundingClientRect())")
+                     for id in ("picture", "face", "transport")}
+            shape = f"{width} x {height}: {boxes}"
+            self.assertLessEqual(max(box[3] for box in boxes.values()), height, shape)
+            self.assertGreaterEqual(boxes["transport"][1], max(boxes[id][3] for id in ("picture", "face")), shape)
+            self.assertTrue(boxes["face"][0] >= boxes["picture"][2] or boxes["face"][1] >= boxes["picture"][3], shape)
+            self.assertGreater(min(bottom - top for _, top, _, bottom in boxes.values()), 80, shape)
+
+    def test_curves_use_their_height(self):
+        self.open()
+        self.js("document.querySelector('[data-preset=all]').click()")
+        lanes = json.loads(self.js("""JSON.stringify(report.lanes.lanes.map(({lane: {key}, shown, range}) =>
+          ({key, axis: range, values: [Math.min(...shown.map(each => each.range[0])), Math.max(...shown.map(each => each.range[1]))]})))"""))
+        self.assertIn("lips", [lane["key"] for lane in lanes])
+        for lane in lanes:
+            if lane["key"] == "time":  # its outliers are outside
+                continue
+            (low, high), (least, most) = lane["axis"], lane["values"]
+            self.assertTrue(low - 0.001 <= least and most <= high + 0.001, lane)
+            self.assertTrue(most - min(0, least) > 0.55 * (high - low) or high - low <= 0.1 or lane["key"] == "head", lane)
+
     def test_axe_finds_nothing(self):
         package = os.path.join(SOURCE, "apps/web/node_modules/axe-core/axe.min.js")
         if not os.path.exists(package):

@@ -18,7 +18,9 @@ class Clip {
     this.hasPicture = data.width > 0;
     document.getElementById('clip-figure').hidden = !this.hasPicture;
     document.getElementById('overlay-choice').hidden = !this.hasPicture;
-    document.getElementById('stage').style.setProperty('--aspect', this.hasPicture ? data.width / data.height : 0);
+    const stage = document.getElementById('stage');
+    stage.style.setProperty('--aspect', this.hasPicture ? data.width / data.height : 0);
+    stage.classList.toggle('upright', data.height > data.width);
     this.choice.addEventListener('change', () => this.draw());
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }

@@ -53,8 +53,8 @@ class Lane {
   }
 
   get marks() {
-    const [low, high] = this.range, {digits} = this.lane, round = value => Number(value.toFixed(digits));
-    return low < 0 ? [round(low / 1.1), 0, round(high / 1.1)] : [0, round(high === 1 ? 1 : high / 1.1)];
+    const [low, high] = this.range;
+    return low < 0 && high > 0 ? [low, 0, high] : [low, high];
   }
 
   drawGrid({ctx, width, ratio}, height) {

@@ -11,7 +11,7 @@ function showFacts(take) {
   document.getElementById('facts').textContent = [
     timeText(data.end_ms - data.start_ms), `${take.frames} frames`,
     data.width ? `a face in ${Math.round(100 * faces / Math.max(1, take.frames))} %` : 'audio only',
-    data.width ? `${data.width} × ${data.height}` : '', levels.length ? `level of detail ${levels.join(', ')}` : '', data.program,
+    data.width ? `${data.width}\u00a0×\u00a0${data.height}` : '', levels.length ? `level of detail ${levels.join(', ')}` : '', data.program,
   ].filter(Boolean).join(' · ');
 }
 

@@ -37,15 +37,32 @@ function controlSeries(take, names, main) {
 const mainControls = /^(eyeBlink|browInnerUp|jawOpen|mouthSmile|mouthPucker|mouthClose)/;
 const fixedRange = () => [0, 1];
 
-// The range of displayed values, at least `least`, symmetric around 0.
-const balanced = least => shown => {
-  const reach = Math.max(least, ...shown.flatMap(series => series.range.map(Math.abs))) * 1.1;
-  return [-reach, reach];
+// The end of an axis for values up to `value`.
+function axisEnd(value) {
+  const power = 10 ** Math.floor(Math.log10(value)), found = [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find(step => step * power > value * 0.9999);
+  return Number((found * power).toPrecision(2));
+}
+const largest = shown => Math.max(...shown.map(series => series.range[1])), smallest = shown => Math.min(...shown.map(series => series.range[0]));
+
+// For controls: up to the largest displayed value, but noise stays small.
+const upToLargest = shown => [0, Math.min(1, axisEnd(Math.max(0.1, largest(shown))))];
+
+// For values of both signs, at least `least` large; the shorter half keeps room for its label.
+const aroundZero = least => shown => {
+  const [low, high] = [-smallest(shown), largest(shown)], minimum = Math.max(least, low, high) / 4;
+  return [-axisEnd(Math.max(low, minimum)), axisEnd(Math.max(high, minimum))];
 };
+
+// For values far from 0: those that occur, at least `least` apart.
+const occurring = least => shown => {
+  const [low, high] = [smallest(shown), largest(shown)], step = 10 ** Math.floor(Math.log10(Math.max(least, high - low)));
+  return [Math.floor(low / step), Math.floor(high / step) + 1].map(steps => Number((steps * step).toPrecision(6)));
+};
+
 // For times: a few outliers are outside the range.
 function mostOf([series]) {
   const sorted = series.column.steps.slice().sort();
-  return [0, Math.max(0.1, 1.5 * sorted[Math.floor(0.99 * (sorted.length - 1))] * series.column.unit)];
+  return [0, axisEnd(Math.max(0.1, 1.2 * sorted[Math.floor(0.99 * (sorted.length - 1))] * series.column.unit))];
 }
 
 // Lanes in display order: title, series, and the range of the axis.
@@ -53,16 +70,17 @@ function makeLanes(take) {
   const of = (name, column, options) => new Series(name, take.column(column), options);
   const degrees = {scale: 180 / Math.PI, unit: '°', shown: true};
   const lanes = [
-    {key: 'sound', title: 'Audio', wave: true, range: fixedRange, digits: 1,
+    {key: 'sound', title: 'Audio', wave: true, range: fixedRange,
       series: [of('voice activity', 'voice_activity', {hue: 1, shown: true})]},
-    {key: 'head', title: 'Head', range: balanced(10), digits: 0, unit: '°',
+    {key: 'head', title: 'Head', range: aroundZero(10), unit: '°',
       series: ['pitch', 'yaw', 'roll'].map((name, hue) => of(name, name, {hue, ...degrees}))},
-    {key: 'place', title: 'Head position', range: balanced(0.05), digits: 2, unit: ' m',
-      series: ['x', 'y', 'z'].map((name, hue) => of(`${name}, metres`, `${name}_m`, {hue, unit: ' m'}))},
-    ...controlGroups.map(({key, title, of: pattern}) => ({key, title, range: fixedRange, digits: 1,
+    {key: 'place', title: 'Head position', range: aroundZero(0.02), unit: ' m',
+      series: ['x', 'y'].map((name, hue) => of(`${name}, metres`, `${name}_m`, {hue, unit: ' m'}))},
+    {key: 'depth', title: 'Head position, depth', range: occurring(0.02), unit: ' m', series: [of('z, metres', 'z_m', {hue: 2, unit: ' m'})]},
+    ...controlGroups.map(({key, title, of: pattern}) => ({key, title, range: upToLargest,
       series: controlSeries(take, controlNames.filter(name => pattern.test(name)), mainControls)})),
-    {key: 'tracker', title: 'Tracker', range: fixedRange, digits: 1, series: [of('face probability', 'face_probability', {hue: 0})]},
-    {key: 'time', title: 'Time per frame', range: mostOf, digits: 1, unit: ' ms', series: [of('milliseconds', 'took_ms', {hue: 5, unit: ' ms'})]},
+    {key: 'tracker', title: 'Tracker', range: fixedRange, series: [of('face probability', 'face_probability', {hue: 0})]},
+    {key: 'time', title: 'Time per frame', range: mostOf, unit: ' ms', series: [of('milliseconds', 'took_ms', {hue: 5, unit: ' ms'})]},
   ];
   for (const lane of lanes) lane.series = lane.series.filter(series => !series.column.empty);
   const hasSound = take.column('sound_low').steps.length > 0;
