@@ -22,14 +22,15 @@ const visemes = table('Oculus', vocabularies.visemes, {...withPrefix('viseme_'),
 const vrm1 = table('VRM', vocabularies.vrm1), vrm0 = table('VRM', vocabularies.vrm0, vroid);
 const bothEyes = {vocabulary: 'VRM', name: 'blink', of: c => (c.eyeBlinkLeft + c.eyeBlinkRight) / 2};
 
+const kinds = found => new Set([...found.values()].map(({name}) => name)).size;
 const found = (names, drivers) => new Map(names.filter(name => drivers.has(plain(name))).map(name => [name, drivers.get(plain(name))]));
 
-/** Drivers by the names of morph targets. Visemes and VRM's vowels move the mouth if no name of ARKit or Roblox does. */
+/** Drivers by the names of morph targets, as mien_vocabulary_match finds them. Visemes and VRM's vowels move the mouth if no name of ARKit or Roblox does. */
 export function morphDrivers(names) {
   const face = found(names, faces);
   if ([...face.values()].some(({name}) => name === 'jawOpen' || name === 'JawDrop')) return face;
-  const [mouth] = [visemes, vrm1, vrm0].map(drivers => found(names, drivers)).sort((a, b) => b.size - a.size);
-  return mouth.size < minimum ? face : new Map([...face, ...mouth]);
+  const [mouth] = [visemes, vrm1, vrm0].map(drivers => found(names, drivers)).sort((a, b) => kinds(b) - kinds(a));
+  return kinds(mouth) < minimum ? face : new Map([...face, ...mouth]);
 }
 
 /** Drivers by the names of a VRM's expressions: ARKit's, if it has them, otherwise the presets. */

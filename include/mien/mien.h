@@ -370,6 +370,23 @@ MIEN_API MIEN_NODISCARD mien_status mien_vocabulary_values(int32_t vocabulary,
  *  @return bit i: name i is supported; a viseme is if the control that its pose moves most is */
 MIEN_API uint64_t mien_vocabulary_supported(int32_t vocabulary, uint64_t supported_controls);
 
+/** Finds the values that move an avatar's morph targets, by their names.
+ *
+ *  Names of ARKit, Roblox, visemes and VRM are found, also as Ready Player Me, VRChat and VRoid
+ *  spell them: letters and digits after the last dot, colon or bar count, in upper or lower case,
+ *  and _L and _R at the end mean left and right. Visemes and names of VRM are only used if no
+ *  target opens the jaw by a name of ARKit or Roblox, and if the targets have at least 3 of them:
+ *  those of the vocabulary that has most.
+ *
+ *  @param[in]  names         [count], UTF-8: of all morph targets of the avatar
+ *  @param      count         number of names, 0 or more
+ *  @param[out] vocabularies  [count], mien_vocabulary; -1: nothing moves the target
+ *  @param[out] indices       [count], of a value of mien_vocabulary_values; -1 as above
+ *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT, also for a name; MIEN_ERROR_OUT_OF_RANGE for a
+ *          negative count */
+MIEN_API MIEN_NODISCARD mien_status mien_vocabulary_match(const char* const* names, int32_t count,
+                                                          int32_t* vocabularies, int32_t* indices);
+
 /** Number of controls of the library. @return MIEN_CONTROL_COUNT at its build time */
 MIEN_API int32_t mien_control_count(void);
 /** Number of landmarks of the library. @return MIEN_LANDMARK_COUNT at its build time */

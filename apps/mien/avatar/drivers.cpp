@@ -1,19 +1,18 @@
-// Matches names of morph targets and expressions with vocabularies, as bindings/js/matching.js.
+// Matches names of morph targets and expressions with vocabularies.
 #include "apps/mien/avatar/drivers.h"
 
 #include <mien/mien.h>
 
 #include <algorithm>
-#include <utility>
+#include <cstdint>
 
 #include "apps/mien/avatar/names.h"
 #include "apps/mien/outputs/vocabulary_values.h"
+#include "apps/mien/system/failure.h"
 
 namespace mien::app {
 namespace {
 
-// Fewer names that may be of visemes or vowels, such as "A", mean something else.
-constexpr std::size_t kMinMouthNames = 3;
 constexpr std::size_t kMinArkitNames = 20;  // of a VRM with "perfect sync"
 
 // Drivers by plain names.
@@ -22,45 +21,6 @@ Drivers table(int vocabulary) {
   for (std::int32_t i = 0; i < mien_vocabulary_size(vocabulary); ++i) {
     const auto value = static_cast<std::size_t>(i);
     drivers[plain_name(mien_vocabulary_name(vocabulary, i))] = {vocabulary, {value, value}};
-  }
-  return drivers;
-}
-
-Drivers face_table() {
-  Drivers drivers = table(MIEN_VOCABULARY_ARKIT);
-  drivers.merge(table(MIEN_VOCABULARY_ROBLOX));
-  return drivers;
-}
-
-Drivers viseme_table() {
-  const Drivers visemes = table(MIEN_VOCABULARY_VISEMES);
-  Drivers drivers = visemes;
-  for (const auto& [name, driver] : visemes) {
-    drivers["viseme" + name] = drivers["v" + name] = driver;
-  }
-  for (std::size_t i = 0; i < formats::kVisemeCount; ++i) {
-    drivers[plain_name(std::string(formats::kReadyPlayerMeNames[i]))] = {MIEN_VOCABULARY_VISEMES,
-                                                                         {i, i}};
-  }
-  return drivers;
-}
-
-Drivers vrm0_table() {
-  Drivers drivers = table(MIEN_VOCABULARY_VRM0);
-  // Morph targets of VRoid Studio.
-  constexpr std::pair<const char*, const char*> kVroid[] = {{"Fcl_ALL_Joy", "Joy"},
-                                                            {"Fcl_ALL_Angry", "Angry"},
-                                                            {"Fcl_ALL_Sorrow", "Sorrow"},
-                                                            {"Fcl_ALL_Fun", "Fun"},
-                                                            {"Fcl_MTH_A", "A"},
-                                                            {"Fcl_MTH_I", "I"},
-                                                            {"Fcl_MTH_U", "U"},
-                                                            {"Fcl_MTH_E", "E"},
-                                                            {"Fcl_MTH_O", "O"},
-                                                            {"Fcl_EYE_Close_L", "Blink_L"},
-                                                            {"Fcl_EYE_Close_R", "Blink_R"}};
-  for (const auto& [morph, expression] : kVroid) {
-    drivers[plain_name(morph)] = drivers.at(plain_name(expression));
   }
   return drivers;
 }
@@ -75,30 +35,25 @@ Drivers found(const std::vector<std::string>& names, const Drivers& table) {
   return drivers;
 }
 
-bool opens_jaw(const Drivers& drivers) {
-  return std::any_of(drivers.begin(), drivers.end(), [](const auto& named) {
-    const std::string name = plain_name(named.first);
-    return name == "jawopen" || name == "jawdrop";
-  });
-}
-
 }  // namespace
 
 Drivers morph_drivers(const std::vector<std::string>& names) {
-  Drivers face = found(names, face_table());
-  if (opens_jaw(face)) {
-    return face;
+  std::vector<const char*> texts(names.size());
+  std::transform(names.begin(), names.end(), texts.begin(),
+                 [](const std::string& name) { return name.c_str(); });
+  std::vector<std::int32_t> vocabularies(names.size()), indices(names.size());
+  if (mien_vocabulary_match(texts.data(), static_cast<std::int32_t>(names.size()),
+                            vocabularies.data(), indices.data()) != MIEN_OK) {
+    throw Failure(kExitInternal, "morph targets: unexpected names");
   }
-  Drivers mouth;
-  for (const Drivers& table : {viseme_table(), table(MIEN_VOCABULARY_VRM1), vrm0_table()}) {
-    if (Drivers matching = found(names, table); matching.size() > mouth.size()) {
-      mouth = std::move(matching);
+  Drivers drivers;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (indices[i] >= 0) {
+      const auto value = static_cast<std::size_t>(indices[i]);
+      drivers[names[i]] = {vocabularies[i], {value, value}};
     }
   }
-  if (mouth.size() >= kMinMouthNames) {
-    face.merge(mouth);
-  }
-  return face;
+  return drivers;
 }
 
 Drivers expression_drivers(const std::vector<std::string>& names) {
@@ -107,7 +62,7 @@ Drivers expression_drivers(const std::vector<std::string>& names) {
     return drivers;
   }
   Drivers presets = table(MIEN_VOCABULARY_VRM1);
-  presets.merge(vrm0_table());
+  presets.merge(table(MIEN_VOCABULARY_VRM0));
   const Driver left = presets.at("blinkleft"), right = presets.at("blinkright");
   if (found(names, {{"blinkleft", left}, {"blinkright", right}}).empty()) {
     presets["blink"] = {left.vocabulary, {left.values[0], right.values[0]}};

@@ -190,6 +190,7 @@ namespace Mien
         [DllImport(Library)] internal static extern int mien_vocabulary_size(int vocabulary);
         [DllImport(Library)] internal static extern IntPtr mien_vocabulary_name(int vocabulary, int index);
         [DllImport(Library)] internal static extern int mien_vocabulary_values(int vocabulary, [In] float[] controls, [Out] float[] values, int count);
+        [DllImport(Library)] internal static extern int mien_vocabulary_match([In] string[] names, int count, [Out] int[] vocabularies, [Out] int[] indices);
         [DllImport(Library)] internal static extern void mien_image_default(out mien_image image);
         [DllImport(Library)] internal static extern void mien_audio_default(out mien_audio audio);
         [DllImport(Library)] internal static extern void mien_tracker_config_default(out mien_tracker_config config);

@@ -257,6 +257,7 @@ extern "C" {
     pub fn mien_vocabulary_name(vocabulary: i32, index: i32) -> *const c_char;
     pub fn mien_vocabulary_values(vocabulary: i32, controls: *const f32, values: *mut f32, count: i32) -> mien_status;
     pub fn mien_vocabulary_supported(vocabulary: i32, supported_controls: u64) -> u64;
+    pub fn mien_vocabulary_match(names: *const *const c_char, count: i32, vocabularies: *mut i32, indices: *mut i32) -> mien_status;
     pub fn mien_control_count() -> i32;
     pub fn mien_landmark_count() -> i32;
     pub fn mien_image_default(image: *mut mien_image);
