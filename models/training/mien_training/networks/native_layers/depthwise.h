@@ -163,6 +163,36 @@ void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel
   rows.finish(begin, finish);
 }
 
+// The gradient of the convolution's output `slid`, from the gradient dy of y = ReLU6(norm(slid)).
+// Computes the gradients of the norm's weight and bias.
+template <typename T>
+class OutputGradient {
+ public:
+  OutputGradient(const Geometry& g, const T* dy, const T* slid, Norm norm, float* dweight,
+                 float* dbias)
+      : dy_(dy),
+        slid_(slid),
+        line_(g.shape.channels, norm),
+        descent_(g.out(), norm, line_, sum_gradients(dy, slid, g.out(), norm, line_, kRelu6),
+                 dweight, dbias) {}
+
+  void prefetch_maps(std::size_t offset, std::size_t count) const {
+    prefetch(slid_ + offset, count);
+    prefetch(dy_ + offset, count);
+  }
+  // offset: of channel c of the pixel in the maps.
+  Lanes at(std::size_t offset, std::size_t c, std::size_t count) const {
+    const Lanes v = load_some(slid_ + offset, count);
+    const Lanes dz = passed(line_.at(c, v), kRelu6, load_some(dy_ + offset, count));
+    return descent_.at(line_, c, dz, v);
+  }
+
+ private:
+  const T *dy_, *slid_;
+  Line line_;
+  Descent descent_;
+};
+
 // Adds a vector of channels of the kernel's gradient to [9][channels].
 inline void add_kernel(std::vector<double>& total, const Kernel& part, std::size_t channels,
                        std::size_t c, std::size_t count) {

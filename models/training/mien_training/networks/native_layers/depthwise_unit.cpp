@@ -13,6 +13,15 @@ Line line_before(std::size_t channels, Norm first) {
 }
 Limits limits_before(Norm first) { return first.weight ? kRelu6 : Limits{-INFINITY, INFINITY}; }
 
+// Computes a row of the convolution's input from x, for a vector of channels from c on.
+template <typename T>
+void read_row(const T* x, DepthwiseShape shape, std::size_t c, std::size_t count, const Line& line,
+              Limits limits, Lanes* to) {
+  for (std::size_t column = 0; column < shape.width; ++column, x += shape.channels) {
+    to[column] = limited(line.at(c, load_some(x, count)), limits);
+  }
+}
+
 template <typename T>
 void forward(DepthwiseShape shape, const T* x, float epsilon, Norm first, const float* weights,
              Norm second, T* slid, T* y) {
@@ -33,10 +42,8 @@ void forward(DepthwiseShape shape, const T* x, float epsilon, Norm first, const 
       slide(g, seen, kernel_of(weights, shape.channels, c, count),
             slid + i * g.out_pixels() * shape.channels + c, count, values, squares,
             [&](std::size_t row) {
-              const T* from = picture + row * shape.width * shape.channels;
-              for (std::size_t column = 0; column < shape.width; ++column, from += shape.channels) {
-                seen.inner(row)[column] = limited(line.at(c, load_some(from, count)), limits);
-              }
+              read_row(picture + row * shape.width * shape.channels, shape, c, count, line, limits,
+                       seen.inner(row));
             });
       sums.add(c, count, values, squares);
     }
@@ -49,15 +56,25 @@ struct Gradients {
   float *first_weight, *first_bias, *weights, *second_weight, *second_bias;
 };
 
+// Replaces the gradient of the normalized map in dx by that of x.
+template <typename T>
+void pass_norm(Map map, const Line& line, const Descent& descent, const T* x, T* dx) {
+  for (std::size_t p = 0; p < map.pixels; ++p, x += map.channels, dx += map.channels) {
+    for (std::size_t c = 0; c < map.channels; c += kLanes) {
+      const std::size_t count = std::min(kLanes, map.channels - c);
+      store_some(dx + c, descent.at(line, c, load_some(dx + c, count), load_some(x + c, count)),
+                 count);
+    }
+  }
+}
+
 template <typename T>
 void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm first,
               const float* weights, Norm second, T* dx, Gradients out) {
   const Geometry g(shape);
-  const Line line = line_before(shape.channels, first), line_slid(shape.channels, second);
+  const Line line = line_before(shape.channels, first);
   const Limits limits = limits_before(first);
-  const Descent descent(g.out(), second, line_slid,
-                        sum_gradients(dy, slid, g.out(), second, line_slid, kRelu6),
-                        out.second_weight, out.second_bias);
+  const OutputGradient<T> slope(g, dy, slid, second, out.second_weight, out.second_bias);
   PerChannel<float> mean = {};
   if (first.weight) {
     std::copy_n(first.mean, shape.channels, mean.begin());
@@ -67,8 +84,7 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
   std::vector<double> dweights(kTaps * shape.channels);
   for (std::size_t i = 0; i < shape.images; ++i) {
     prefetch(x + i * g.pixels() * shape.channels, g.pixels() * shape.channels);
-    prefetch(slid + i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
-    prefetch(dy + i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
+    slope.prefetch_maps(i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
     for (std::size_t c = 0; c < shape.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, shape.channels - c),
                         picture = i * g.pixels() * shape.channels + c;
@@ -78,16 +94,11 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
       descend(
           g, seen, gradient, kernel_of(weights, shape.channels, c, count), dkernel,
           [&](std::size_t pixel) {
-            const std::size_t at = slid_picture + pixel * shape.channels;
-            const Lanes v = load_some(slid + at, count);
-            return descent.at(line_slid, c,
-                              passed(line_slid.at(c, v), kRelu6, load_some(dy + at, count)), v);
+            return slope.at(slid_picture + pixel * shape.channels, c, count);
           },
           [&](std::size_t row) {
-            const T* from = x + picture + row * shape.width * shape.channels;
-            for (std::size_t column = 0; column < shape.width; ++column, from += shape.channels) {
-              seen.inner(row)[column] = limited(line.at(c, load_some(from, count)), limits);
-            }
+            read_row(x + picture + row * shape.width * shape.channels, shape, c, count, line,
+                     limits, seen.inner(row));
           },
           [&](std::size_t row) {
             Lanes of_row = {}, products_of_row = {};  // in registers, unlike captured sums
@@ -107,16 +118,9 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
     }
   }
   std::copy(dweights.begin(), dweights.end(), out.weights);
-  if (!first.weight) {
-    return;
-  }
-  const Descent before(g.in(), first, line, sums, out.first_weight, out.first_bias);
-  for (std::size_t p = 0; p < g.in().pixels; ++p, x += shape.channels, dx += shape.channels) {
-    for (std::size_t c = 0; c < shape.channels; c += kLanes) {
-      const std::size_t count = std::min(kLanes, shape.channels - c);
-      store_some(dx + c, before.at(line, c, load_some(dx + c, count), load_some(x + c, count)),
-                 count);
-    }
+  if (first.weight) {
+    const Descent before(g.in(), first, line, sums, out.first_weight, out.first_bias);
+    pass_norm(g.in(), line, before, x, dx);
   }
 }
 

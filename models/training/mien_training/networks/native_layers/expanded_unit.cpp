@@ -90,6 +90,17 @@ struct Expansion {
   }
 };
 
+// Computes a row of the expanded map z from x, and of the convolution's input `seen`, for a vector
+// of channels from c on. z and `seen` may be the same.
+template <typename T>
+void expand_row(const T* x, std::size_t narrow, const std::array<Vector<T>, kMaxNarrow>& by_input,
+                std::size_t width, const Line& line, std::size_t c, Lanes* z, Lanes* seen) {
+  product(x, narrow, narrow, by_input.data(), width, z, 1, false);
+  for (std::size_t column = 0; column < width; ++column) {
+    seen[column] = limited(line.at(c, z[column]), kRelu6);
+  }
+}
+
 template <typename T>
 void forward(DepthwiseShape shape, std::size_t narrow, const T* x, float epsilon,
              const float* expansion_weights, Norm first, const float* weights, Norm second,
@@ -116,12 +127,8 @@ void forward(DepthwiseShape shape, std::size_t narrow, const T* x, float epsilon
       slide(g, seen, kernel_of(weights, shape.channels, c, count),
             slid + i * g.out_pixels() * shape.channels + c, count, values, squares,
             [&](std::size_t row) {
-              Lanes* to = seen.inner(row);
-              product(picture + row * shape.width * narrow, narrow, narrow, by_input.data(),
-                      shape.width, to, 1, false);
-              for (std::size_t column = 0; column < shape.width; ++column) {
-                to[column] = limited(line.at(c, to[column]), kRelu6);
-              }
+              expand_row(picture + row * shape.width * narrow, narrow, by_input, shape.width, line,
+                         c, seen.inner(row), seen.inner(row));
             });
       sums.add(c, count, values, squares);
     }
@@ -197,6 +204,67 @@ void write(const std::vector<Lanes>& from, std::size_t channels, T* to) {
   }
 }
 
+// Passes the gradient dz of the expanded map on to x and to the weights of expand: one image, a
+// vector of channels and a row at a time.
+template <typename T>
+class ExpansionBackward {
+ public:
+  ExpansionBackward(const Geometry& g, const Expansion& expansion)
+      : width_(g.shape.width),
+        expansion_(expansion),
+        along_x_(g.shape.height, width_, expansion.narrow),
+        along_dz_(1, width_, kLanes),
+        dz_(width_ * kLanes),
+        towards_x_(g.pixels() * along_x_.vectors()),
+        products_(expansion.channels * expansion.narrow) {}
+
+  void begin_image(const T* x) { along_x_.read(x); }
+
+  void begin_channels(std::size_t c, std::size_t count, const Line& line) {
+    part_ = {};
+    for (std::size_t v = 0; v < along_x_.vectors(); ++v) {
+      by_channel_[v] = expansion_.by_channel<T>(c, count, v * kLanes, line.scale.data());
+    }
+  }
+
+  void add_row(std::size_t row, std::size_t c, const Lanes* dz) {
+    const std::size_t vectors = along_x_.vectors();
+    along_dz_.fill([dz](std::size_t, std::size_t column, std::size_t) { return dz[column]; });
+    outer<T>(along_x_.row(row), vectors, expansion_.narrow, along_dz_.row(0), 1,
+             along_dz_.units_of_all(), part_.data());
+    for (std::size_t column = 0; column < width_; ++column) {
+      store(&dz_[column * kLanes], dz[column]);
+    }
+    for (std::size_t v = 0; v < vectors; ++v) {
+      product(dz_.data(), kLanes, kLanes, by_channel_[v].data(), width_,
+              &towards_x_[row * width_ * vectors + v], vectors, c > 0);
+    }
+  }
+
+  void end_channels(std::size_t c, std::size_t count) {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      for (std::size_t k = 0; k < expansion_.narrow; ++k) {
+        products_[(c + lane) * expansion_.narrow + k] += part_[k][lane];
+      }
+    }
+  }
+
+  void end_image(T* dx) const { write(towards_x_, expansion_.narrow, dx); }
+
+  // The sums of dz x' over all pixels, [channels][narrow].
+  const std::vector<double>& products() const { return products_; }
+
+ private:
+  std::size_t width_;
+  const Expansion& expansion_;
+  Along<T> along_x_, along_dz_;
+  std::vector<T> dz_;             // a row
+  std::vector<Lanes> towards_x_;  // the gradient of one image of x
+  std::vector<double> products_;
+  std::array<std::array<Vector<T>, kLanes>, kMaxNarrow / kLanes> by_channel_;
+  std::array<Lanes, kMaxNarrow> part_;  // of products_, of one image
+};
+
 template <typename T>
 void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x, const T* slid,
               const float* expansion_weights, Norm first, const float* weights, Norm second,
@@ -204,50 +272,33 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
   const Geometry g(shape);
   const Expansion expansion = {shape.channels, narrow, expansion_weights};
   const Gram gram = {narrow, gram_values};
-  const Line line(shape.channels, first), line_slid(shape.channels, second);
-  const Descent descent(g.out(), second, line_slid,
-                        sum_gradients(dy, slid, g.out(), second, line_slid, kRelu6),
-                        out.second_weight, out.second_bias);
+  const Line line(shape.channels, first);
+  const OutputGradient<T> slope(g, dy, slid, second, out.second_weight, out.second_bias);
   PerChannel<float> mean = {};
   std::copy_n(first.mean, shape.channels, mean.begin());
   Rows expanded(g), seen(g), gradient(g);
-  Along<T> along_x(shape.height, shape.width, narrow), along_dz(1, shape.width, kLanes);
-  const std::size_t vectors = along_x.vectors();
-  std::vector<T> by_channel_dz(shape.width * kLanes);
-  std::vector<Lanes> towards_x(g.pixels() * vectors);  // the gradient of one image of x
+  ExpansionBackward<T> expansion_backward(g, expansion);
   Totals sums;
-  std::vector<double> dweights(kTaps * shape.channels), products(shape.channels * narrow);
+  std::vector<double> dweights(kTaps * shape.channels);
   for (std::size_t i = 0; i < shape.images; ++i) {
-    prefetch(slid + i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
-    prefetch(dy + i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
+    slope.prefetch_maps(i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
     const T* picture = x + i * g.pixels() * narrow;
-    along_x.read(picture);
+    expansion_backward.begin_image(picture);
     for (std::size_t c = 0; c < shape.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, shape.channels - c),
                         slid_picture = i * g.out_pixels() * shape.channels + c;
       const auto by_input = expansion.by_input<T>(c, count);
-      std::array<std::array<Vector<T>, kLanes>, kMaxNarrow / kLanes> by_channel;
-      for (std::size_t v = 0; v < vectors; ++v) {
-        by_channel[v] = expansion.by_channel<T>(c, count, v * kLanes, line.scale.data());
-      }
+      expansion_backward.begin_channels(c, count, line);
       Kernel dkernel = {};
       Lanes gradients = {}, along = {};
-      std::array<Lanes, kMaxNarrow> part = {};
       descend(
           g, seen, gradient, kernel_of(weights, shape.channels, c, count), dkernel,
           [&](std::size_t pixel) {
-            const std::size_t at = slid_picture + pixel * shape.channels;
-            const Lanes v = load_some(slid + at, count);
-            return descent.at(line_slid, c,
-                              passed(line_slid.at(c, v), kRelu6, load_some(dy + at, count)), v);
+            return slope.at(slid_picture + pixel * shape.channels, c, count);
           },
           [&](std::size_t row) {
-            Lanes *z = expanded.inner(row), *to = seen.inner(row);
-            product(picture + row * shape.width * narrow, narrow, narrow, by_input.data(),
-                    shape.width, z, 1, false);
-            for (std::size_t column = 0; column < shape.width; ++column) {
-              to[column] = limited(line.at(c, z[column]), kRelu6);
-            }
+            expand_row(picture + row * shape.width * narrow, narrow, by_input, shape.width, line, c,
+                       expanded.inner(row), seen.inner(row));
           },
           [&](std::size_t row) {
             const Lanes *z = expanded.inner(row), *value = seen.inner(row);
@@ -257,32 +308,20 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
               dz[column] = passed(value[column], kRelu6, dz[column]);
               of_row += dz[column];
               along_row += dz[column] * (z[column] - load(&mean[c]));
-              store(&by_channel_dz[column * kLanes], dz[column]);
             }
             gradients += of_row;
             along += along_row;
-            along_dz.fill(
-                [dz](std::size_t, std::size_t column, std::size_t) { return dz[column]; });
-            outer<T>(along_x.row(row), vectors, narrow, along_dz.row(0), 1, along_dz.units_of_all(),
-                     part.data());
-            for (std::size_t v = 0; v < vectors; ++v) {
-              product(by_channel_dz.data(), kLanes, kLanes, by_channel[v].data(), shape.width,
-                      &towards_x[row * shape.width * vectors + v], vectors, c > 0);
-            }
+            expansion_backward.add_row(row, c, dz);
           });
       add_kernel(dweights, dkernel, shape.channels, c, count);
       sums.add(c, count, gradients, along);
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        for (std::size_t k = 0; k < narrow; ++k) {
-          products[(c + lane) * narrow + k] += part[k][lane];
-        }
-      }
+      expansion_backward.end_channels(c, count);
     }
-    write(towards_x, narrow, dx + i * g.pixels() * narrow);
+    expansion_backward.end_image(dx + i * g.pixels() * narrow);
   }
   std::copy(dweights.begin(), dweights.end(), out.weights);
   const Descent before(g.in(), first, line, sums, out.first_weight, out.first_bias);
-  expansion_gradient(expansion, gram, line, before, products, out.expansion);
+  expansion_gradient(expansion, gram, line, before, expansion_backward.products(), out.expansion);
   add_moments_share(expansion, before, g, x, dx);
 }
 
