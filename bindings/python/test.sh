@@ -23,6 +23,7 @@ rm -rf "$wheels"
 "$work/build/bin/pip" install --quiet --quiet --disable-pip-version-check --require-hashes -r scripts/package/wheel_requirements.txt
 "$work/build/bin/python" -m build --no-isolation --wheel --outdir "$wheels" "$here" >"$work/build.log" 2>&1 || { cat "$work/build.log" >&2; exit 1; }
 wheel=$(echo "$wheels"/mien-*-py3-none-*.whl)
+"$work/build/bin/python" scripts/package/shrink_wheel.py "$wheel"
 bytes=$(stat -c %s "$wheel")
 echo "$(basename "$wheel"): $bytes bytes"
 [ "$bytes" -le 5000000 ] || { echo "test.sh: the wheel is larger than 5 MB" >&2; exit 1; }
