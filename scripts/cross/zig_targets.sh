@@ -1,8 +1,8 @@
 # shellcheck shell=bash
-# Sourced in the repository's root: Zig's compiler from PyPI, and the targets that mien is built for with it (scripts/cross/zig.sh).
+# Sourced in the repository's root, also by functions: Zig's compiler from PyPI, and the targets that mien is built for with it (scripts/cross/zig.sh).
 
 # shellcheck disable=SC2034  # used by the scripts that source this file
-declare -A ZIG_TARGETS=(
+declare -gA ZIG_TARGETS=(
   [linux-x64]=x86_64-linux-musl
   [linux-arm64]=aarch64-linux-musl
   [linux-armv7]=arm-linux-musleabihf
@@ -13,7 +13,7 @@ declare -A ZIG_TARGETS=(
 )
 # Libraries for SDKs that Zig does not have, to be linked with their own C++ library.
 # shellcheck disable=SC2034
-declare -A LIBRARY_TARGETS=(
+declare -gA LIBRARY_TARGETS=(
   [android-arm64-v8a]=aarch64-linux-android28
   [android-armeabi-v7a]=armv7a-linux-androideabi28
   [android-x86_64]=x86_64-linux-android28

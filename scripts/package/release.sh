@@ -81,7 +81,7 @@ make_wheel() {
   "$build-python/bin/pip" install --quiet --quiet --disable-pip-version-check --require-hashes -r scripts/package/wheel_requirements.txt ||
     { echo "SKIPPED: the wheel: PyPI cannot be reached"; return 0; }
   "$build-python/bin/python" -m build --no-isolation --wheel --outdir "$out" bindings/python >"$build-python/log" 2>&1 || { cat "$build-python/log" >&2; return 1; }
-  "$build-python/bin/python" scripts/package/shrink_wheel.py "$out"/mien-*.whl
+  "$build-python/bin/python" scripts/package/shrink_wheel.py "$out/mien-$version"-*.whl
 }
 
 make_npm() {

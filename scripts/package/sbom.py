@@ -15,7 +15,7 @@ from pathlib import Path
 
 # Headers that are compiled into the programs, by their Debian packages; the library has nothing but the standard library.
 IN_PROGRAMS = {"libcli11-dev": ("CLI11", "BSD-3-Clause"), "nlohmann-json3-dev": ("nlohmann-json", "MIT"), "libstb-dev": ("stb", "MIT OR Unlicense")}
-WITH_PROGRAMS = re.compile(rf"\.deb$|-linux-{os.uname().machine}\.tar\.gz$|-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
+WITH_PROGRAMS = re.compile(rf"\.deb$|\.whl$|-linux-{os.uname().machine}\.tar\.gz$|-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
 # Libraries that Zig links statically, with the version of its PyPI package; zlib is Debian's source.
 BY_ZIG = re.compile(r"-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
 IN_ZIG = {"libc++": "Apache-2.0 WITH LLVM-exception", "musl": "MIT", "mingw-w64": "ZPL-2.1"}

@@ -1,8 +1,9 @@
-"""Tests of the checks of packages, and of the table of sizes: scripts/package/check_aar.py, check_xcframework.py and sizes.py.
+"""Tests of the checks of packages, and of releases: scripts/package/check_aar.py, check_xcframework.py, sbom.py and sizes.py.
 
 usage: checks_test.py
 """
 import json
+import os
 import pathlib
 import plistlib
 import shutil
@@ -10,12 +11,14 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import zipfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "scripts/package"))
 import check_aar  # noqa: E402
 import check_xcframework  # noqa: E402
+import sbom  # noqa: E402
 import sizes  # noqa: E402
 
 SYMBOLS = "void Java_org_mien_Native_create(void) {}\nvoid mien_tracker_create(void) {}\n"
@@ -122,6 +125,22 @@ class XCFramework(Folder):
         (framework / "tvos-arm64").mkdir()
         with self.assertRaisesRegex(check_xcframework.Invalid, "folders"):
             check_xcframework.check(framework)
+
+
+class Release(Folder):
+    def test_functions_that_source_the_targets_share_them(self):
+        script = "source_them() { . scripts/cross/zig_targets.sh; }; source_them; echo ${ZIG_TARGETS[macos-arm64]} ${LIBRARY_TARGETS[ios-arm64]}"
+        printed = subprocess.run(["bash", "-euc", script], check=True, cwd=SOURCE, capture_output=True, text=True).stdout
+        self.assertEqual(printed.split(), ["aarch64-macos.13.3", "arm64-apple-ios15.0"])
+
+    @unittest.mock.patch.dict(os.environ, SOURCE_DATE_EPOCH="0")
+    def test_bill_names_what_programs_contain(self):
+        for name, programs in (("mien-0.1.0-py3-none-any.whl", True), ("mien_0.1.0_amd64.deb", True), ("mien-0.1.0.tar.gz", False)):
+            file = self.folder / name
+            file.write_bytes(b"")
+            contained = {package["name"] for package in sbom.document("0.1.0", self.folder)["packages"]}
+            self.assertEqual("CLI11" in contained, programs, name)
+            file.unlink()
 
 
 class Sizes(unittest.TestCase):
