@@ -129,7 +129,8 @@ class XCFramework(Folder):
 
 class Release(Folder):
     def test_functions_that_source_the_targets_share_them(self):
-        script = "source_them() { . scripts/cross/zig_targets.sh; }; source_them; echo ${ZIG_TARGETS[macos-arm64]} ${LIBRARY_TARGETS[ios-arm64]}"
+        script = "source_them() { . scripts/cross/zig_targets.sh; }; source_them; "
+        script += "echo ${ZIG_TARGETS[macos-arm64]} ${LIBRARY_TARGETS[ios-arm64]}"
         printed = subprocess.run(["bash", "-euc", script], check=True, cwd=SOURCE, capture_output=True, text=True).stdout
         self.assertEqual(printed.split(), ["aarch64-macos.13.3", "arm64-apple-ios15.0"])
 
