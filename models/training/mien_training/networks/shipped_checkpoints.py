@@ -18,8 +18,8 @@ from mien_training.networks.weight_reader import set_linear
 from mien_training.paths import ROOT
 
 
-def pass_on(norm, bias):
-    """A norm that only adds a bias."""
+def set_bias_only(norm, bias):
+    """Makes a norm add a bias and do nothing else."""
     norm.running_mean.zero_()
     norm.running_var.fill_(1)
     norm.weight.fill_(math.sqrt(1 + norm.eps))
@@ -33,7 +33,7 @@ def network_of(path, name):
     for conv_norm in in_order(network.encoder):
         layer = next(encoder)
         conv_norm[0].weight.copy_(weight_of(layer, conv_norm[0]))
-        pass_on(conv_norm[1], layer.bias)
+        set_bias_only(conv_norm[1], layer.bias)
     last, project = next(encoder), network.encoder.tail[2]
     project.weight.copy_(weight_of(last, project))
     project.bias.copy_(last.bias)

@@ -19,7 +19,7 @@ from mien_convert.atomic_files import whole
 from mien_training.data import face_batches
 from mien_training.data.framing import FRAMINGS
 from mien_training.evaluate.int8_layers import CALIBRATION, Encoder, People, rounded_weights
-from mien_training.networks.shipped_checkpoints import network_of, pass_on
+from mien_training.networks.shipped_checkpoints import network_of, set_bias_only
 from mien_training.networks.warm_start import in_order
 from mien_training.networks.weight_reader import metadata
 from mien_training.paths import ROOT
@@ -74,7 +74,7 @@ def checkpoint(student, path, name):
     for conv_norm in in_order(network.encoder):
         convolution = next(convolutions)
         conv_norm[0].weight.copy_(convolution.weight)
-        pass_on(conv_norm[1], convolution.bias)
+        set_bias_only(conv_norm[1], convolution.bias)
     network.encoder.tail[2].load_state_dict(next(convolutions).state_dict())
     return {"average": network.state_dict(), "samples": metadata(path)["encoder_samples"]}
 

@@ -13,7 +13,7 @@ OUTER_LIPS, INNER_LIPS = range(48, 60), range(60, 68)
 EYES = (range(36, 42), range(42, 48))
 BROWS = (range(17, 22), range(22, 27))
 CHEEKS = ((2, 31, 41), (14, 35, 46))  # of the oval, the nose and the eye: a cheek is between them
-WEARS = {"female": 0.55, "male": 0.03}
+PROBABILITY = {"female": 0.55, "male": 0.03}  # of wearing any
 
 
 @dataclass
@@ -25,7 +25,7 @@ class MakeUp:
 
 def sample(rng, sex):
     """Make-up of a person: none, some or all of it."""
-    if rng.random() >= WEARS[sex]:
+    if rng.random() >= PROBABILITY[sex]:
         return []
     red = np.array([rng.uniform(0.15, 0.55), rng.uniform(0.01, 0.15), rng.uniform(0.02, 0.18)])
     any_colour = lambda high: rng.uniform(0.01, high) * np.exp(rng.normal(0, 0.5, 3))

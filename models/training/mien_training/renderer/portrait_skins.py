@@ -138,8 +138,8 @@ def least_squares(rows, values, weight, ridge=RIDGE):
     are regularized."""
     weighted = rows * weight[:, None]
     square = weighted.T @ rows
-    small = np.diag([0.0] + [ridge * square[0, 0]] * (len(square) - 1))
-    return np.linalg.solve(square + small, weighted.T @ values)
+    penalty = np.diag([0.0] + [ridge * square[0, 0]] * (len(square) - 1))
+    return np.linalg.solve(square + penalty, weighted.T @ values)
 
 
 def light_of(colour, skin, normals, weight):
@@ -149,11 +149,11 @@ def light_of(colour, skin, normals, weight):
     brightness, albedo = colour.mean(1), skin.mean(1)
     for _ in range(4):
         shape = least_squares(shapes * albedo[:, None], brightness, w)
-        shown = np.clip(shapes @ shape, 1e-3, None)
-        off = np.abs(np.log((brightness + 0.01) / (shown * albedo + 0.01)))
-        w = weight * np.minimum(1, HUBER / np.maximum(off, 1e-6))
-    tint = (w[:, None] * colour).sum(0) / (w[:, None] * shown[:, None] * skin).sum(0)
-    return shape[:, None] * tint, float((weight * np.minimum(off, 1)).sum() / weight.sum())
+        shading = np.clip(shapes @ shape, 1e-3, None)
+        error = np.abs(np.log((brightness + 0.01) / (shading * albedo + 0.01)))
+        w = weight * np.minimum(1, HUBER / np.maximum(error, 1e-6))
+    tint = (w[:, None] * colour).sum(0) / (w[:, None] * shading[:, None] * skin).sum(0)
+    return shape[:, None] * tint, float((weight * np.minimum(error, 1)).sum() / weight.sum())
 
 
 class Baker:
@@ -211,8 +211,8 @@ def bake_share(job):
     baker, refused = Baker(), 0
     for i in tqdm(rows, position=worker, mininterval=5):
         photo = Photograph(fits, i, baker.rig)
-        texture, base, off = baker.bake(photo)
-        if off > WORST_LIGHT:
+        texture, base, error = baker.bake(photo)
+        if error > WORST_LIGHT:
             refused += 1
             continue
         path = cache() / "portrait_skins" / f"{base}+{photo.name.removesuffix('.jpg')}.jpg"

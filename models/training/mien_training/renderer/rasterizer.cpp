@@ -25,7 +25,7 @@ class Renderer {
   void start(const Scene& scene) {
     grid_.clear(scene.view.width * kSamples, scene.view.height * kSamples);
   }
-  void hide(const Scene& scene, int stage);
+  void rasterize(const Scene& scene, int stage);
   void shadows(const Scene& scene);
   void paint(const Scene& scene, uint8_t* out);
   void visibility(const Scene& scene, const float* points, const float* tolerance, int count,
@@ -33,8 +33,8 @@ class Renderer {
   void exposure_to_sky(const Scene& scene, const float* directions, int count, float* out);
 
  private:
-  // A point of a triangle that a pixel shows.
-  struct Wanted {
+  // A visible point of a triangle, which contributes to a pixel.
+  struct Fragment {
     uint32_t id;
     float x, y;   // sample coordinates
     bool clamp;   // moves a point just outside the triangle to its edge
@@ -42,23 +42,23 @@ class Renderer {
     size_t pixel;
   };
 
-  Surface surface(const Scene& scene, const Wanted& wanted) const;
-  void want(const Scene& scene, const Wanted& wanted);
-  void fetch(const Scene& scene, uint32_t id) const;
+  Surface surface(const Scene& scene, const Fragment& fragment) const;
+  void add_fragment(const Scene& scene, const Fragment& fragment);
+  void prefetch_corners(const Scene& scene, uint32_t id) const;
   bool one_surface(size_t first) const;
-  void pixel(const Scene& scene, int x, int y, Vec3 background);
-  void outline(const Scene& scene, int x, int y, Vec3 background);
-  void gather_wanted(const Scene& scene, const ShadowMap* shadow);
-  void shade_wanted(const Scene& scene);
+  void add_pixel(const Scene& scene, int x, int y, Vec3 background);
+  void add_outline(const Scene& scene, int x, int y, Vec3 background);
+  void fill_batch(const Scene& scene, const ShadowMap* shadow);
+  void shade_fragments(const Scene& scene);
   void blend(const Scene& scene, const Part& part);
-  void blend_wanted(const Scene& scene, const Material& lens);
+  void blend_fragments(const Scene& scene, const Material& lens);
 
   std::vector<Vertices> vertices_;
   Grid grid_;
   ShadowMap shadow_;
   std::vector<Projected> scratch_;
   std::vector<Vec3> colour_;  // [height,width] linear
-  std::vector<Wanted> wanted_;
+  std::vector<Fragment> fragments_;
   Batch batch_;
 };
 
@@ -79,7 +79,7 @@ void Renderer::geometry(const Scene& scene) {
   for (int m = 0; m < scene.mesh_count; ++m) gather(scene.meshes[m], vertices_[size_t(m)]);
 }
 
-void Renderer::hide(const Scene& scene, int stage) {
+void Renderer::rasterize(const Scene& scene, int stage) {
   for (int p = 0; p < scene.part_count; ++p) {
     const Part& part = scene.parts[p];
     if (part.stage != stage) continue;
@@ -108,18 +108,18 @@ void Renderer::shadows(const Scene& scene) {
   }
 }
 
-// Notes a point for the batch and has the memory fetch its triangle.
-void Renderer::want(const Scene& scene, const Wanted& wanted) {
-  const Part& part = scene.parts[wanted.id >> kTriangleBits];
+// Lists a fragment, and prefetches its triangle.
+void Renderer::add_fragment(const Scene& scene, const Fragment& fragment) {
+  const Part& part = scene.parts[fragment.id >> kTriangleBits];
   const Mesh& mesh = scene.meshes[part.mesh];
-  const int triangle = part.first + int(wanted.id & ((1u << kTriangleBits) - 1));
+  const int triangle = part.first + int(fragment.id & ((1u << kTriangleBits) - 1));
   __builtin_prefetch(mesh.corner_position + 3 * triangle);
   __builtin_prefetch(mesh.corner_uv + 3 * triangle);
-  wanted_.push_back(wanted);
+  fragments_.push_back(fragment);
 }
 
-// Has the memory fetch the corners of a triangle.
-void Renderer::fetch(const Scene& scene, uint32_t id) const {
+// Prefetches the corners of a triangle.
+void Renderer::prefetch_corners(const Scene& scene, uint32_t id) const {
   const Part& part = scene.parts[id >> kTriangleBits];
   const Mesh& mesh = scene.meshes[part.mesh];
   const int triangle = part.first + int(id & ((1u << kTriangleBits) - 1));
@@ -132,17 +132,17 @@ void Renderer::fetch(const Scene& scene, uint32_t id) const {
   }
 }
 
-// The surface at a point of a triangle.
-Surface Renderer::surface(const Scene& scene, const Wanted& wanted) const {
-  const Part& part = scene.parts[wanted.id >> kTriangleBits];
+// The surface at a fragment.
+Surface Renderer::surface(const Scene& scene, const Fragment& fragment) const {
+  const Part& part = scene.parts[fragment.id >> kTriangleBits];
   const Mesh& mesh = scene.meshes[part.mesh];
-  const int triangle = int(wanted.id & ((1u << kTriangleBits) - 1));
+  const int triangle = int(fragment.id & ((1u << kTriangleBits) - 1));
   const int32_t* corner = mesh.corner_position + 3 * (part.first + triangle);
   const Vertices& v = vertices_[size_t(part.mesh)];
   const size_t i = size_t(corner[0]), j = size_t(corner[1]), k = size_t(corner[2]);
   const Edges e(v.screen[i], v.screen[j], v.screen[k]);
-  Vec3 w = e.linear(wanted.x, wanted.y);
-  if (wanted.clamp) {
+  Vec3 w = e.linear(fragment.x, fragment.y);
+  if (fragment.clamp) {
     w = {std::max(w.x, 0.0f), std::max(w.y, 0.0f), std::max(w.z, 0.0f)};
     w = w * (1 / (w.x + w.y + w.z));
   }
@@ -171,22 +171,22 @@ bool Renderer::one_surface(size_t first) const {
   return same;
 }
 
-// Lists the surfaces of a pixel, and adds the visible background to the image.
-void Renderer::pixel(const Scene& scene, int x, int y, Vec3 background) {
+// Lists the fragments of a pixel, and adds the visible background to the image.
+void Renderer::add_pixel(const Scene& scene, int x, int y, Vec3 background) {
   const size_t first = grid_.at(kSamples * x, kSamples * y);
   const size_t to = size_t(y) * size_t(scene.view.width) + size_t(x);
   const uint32_t id = grid_.id[first];
   const bool same = one_surface(first);
   colour_[to] = same && id == kNothing ? background : Vec3{0, 0, 0};
   if (!same)
-    outline(scene, x, y, background);
+    add_outline(scene, x, y, background);
   else if (id != kNothing)
-    want(scene, {id, float(2 * x + 1), float(2 * y + 1), true, 1, to});
+    add_fragment(scene, {id, float(2 * x + 1), float(2 * y + 1), true, 1, to});
 }
 
-// The same of a pixel in which several surfaces meet; each is shaded once.
-void Renderer::outline(const Scene& scene, int x, int y, Vec3 background) {
-  const size_t to = size_t(y) * size_t(scene.view.width) + size_t(x), begin = wanted_.size();
+// The same of a pixel in which several surfaces meet; each becomes one fragment.
+void Renderer::add_outline(const Scene& scene, int x, int y, Vec3 background) {
+  const size_t to = size_t(y) * size_t(scene.view.width) + size_t(x), begin = fragments_.size();
   float nearness[kSamples * kSamples];
   for (int k = 0; k < kSamples * kSamples; ++k) {
     const int sx = kSamples * x + (k & 1), sy = kSamples * y + (k >> 1);
@@ -197,31 +197,32 @@ void Renderer::outline(const Scene& scene, int x, int y, Vec3 background) {
       continue;
     }
     size_t same = begin;
-    while (same < wanted_.size() && (wanted_[same].id >> kTriangleBits != id >> kTriangleBits ||
-                                     std::abs(nearness[same - begin] - near) > limit))
+    while (same < fragments_.size() &&
+           (fragments_[same].id >> kTriangleBits != id >> kTriangleBits ||
+            std::abs(nearness[same - begin] - near) > limit))
       ++same;
     nearness[same - begin] = near;
-    if (same < wanted_.size())
-      wanted_[same].share += 0.25f;
+    if (same < fragments_.size())
+      fragments_[same].share += 0.25f;
     else
-      want(scene, {id, float(sx) + 0.5f, float(sy) + 0.5f, false, 0.25f, to});
+      add_fragment(scene, {id, float(sx) + 0.5f, float(sy) + 0.5f, false, 0.25f, to});
   }
 }
 
-// Puts all that is wanted into the batch.
-void Renderer::gather_wanted(const Scene& scene, const ShadowMap* shadow) {
+// Moves all fragments to the batch.
+void Renderer::fill_batch(const Scene& scene, const ShadowMap* shadow) {
   constexpr size_t kAhead = 8;
   batch_.count = 0;
-  for (size_t k = 0; k < wanted_.size(); ++k) {
-    if (k + kAhead < wanted_.size()) fetch(scene, wanted_[k + kAhead].id);
-    const Wanted& w = wanted_[k];
-    batch_.add(surface(scene, w), textures, shadow, w.pixel, w.share);
+  for (size_t k = 0; k < fragments_.size(); ++k) {
+    if (k + kAhead < fragments_.size()) prefetch_corners(scene, fragments_[k + kAhead].id);
+    const Fragment& fragment = fragments_[k];
+    batch_.add(surface(scene, fragment), textures, shadow, fragment.pixel, fragment.share);
   }
-  wanted_.clear();
+  fragments_.clear();
 }
 
-void Renderer::shade_wanted(const Scene& scene) {
-  gather_wanted(scene, scene.light.shadow ? &shadow_ : nullptr);
+void Renderer::shade_fragments(const Scene& scene) {
+  fill_batch(scene, scene.light.shadow ? &shadow_ : nullptr);
   shade(scene.light, batch_);
   for (int i = 0; i < batch_.count; ++i) {
     Vec3& pixel = colour_[batch_.pixel[i]];
@@ -238,16 +239,16 @@ void Renderer::blend(const Scene& scene, const Part& part) {
   each_triangle(mesh, part, screen, grid_, [&](int t, const Edges& e, const Bounds& box) {
     each_sample(e, box, grid_, [&](size_t, int x, int y, float, Vec3) {
       const size_t to = size_t(y / kSamples) * size_t(scene.view.width) + size_t(x / kSamples);
-      want(scene, {number << kTriangleBits | uint32_t(t), float(x) + 0.5f, float(y) + 0.5f, false,
-                   1.0f / (kSamples * kSamples), to});
-      if (wanted_.size() == Batch::kSize) blend_wanted(scene, lens);
+      add_fragment(scene, {number << kTriangleBits | uint32_t(t), float(x) + 0.5f, float(y) + 0.5f,
+                           false, 1.0f / (kSamples * kSamples), to});
+      if (fragments_.size() == Batch::kSize) blend_fragments(scene, lens);
     });
   });
-  blend_wanted(scene, lens);
+  blend_fragments(scene, lens);
 }
 
-void Renderer::blend_wanted(const Scene& scene, const Material& lens) {
-  gather_wanted(scene, nullptr);
+void Renderer::blend_fragments(const Scene& scene, const Material& lens) {
+  fill_batch(scene, nullptr);
   shade(scene.light, batch_);
   for (int i = 0; i < batch_.count; ++i) {
     Vec3& pixel = colour_[batch_.pixel[i]];
@@ -286,10 +287,10 @@ void Renderer::paint(const Scene& scene, uint8_t* out) {
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const uint8_t* b = scene.background + (size_t(y) * w + x) * 3;
-      pixel(scene, x, y, {to_linear(b[0]), to_linear(b[1]), to_linear(b[2])});
-      if (wanted_.size() > Batch::kSize - kSamples * kSamples) shade_wanted(scene);
+      add_pixel(scene, x, y, {to_linear(b[0]), to_linear(b[1]), to_linear(b[2])});
+      if (fragments_.size() > Batch::kSize - kSamples * kSamples) shade_fragments(scene);
     }
-  shade_wanted(scene);
+  shade_fragments(scene);
   for (int p = 0; p < scene.part_count; ++p)
     if (scene.parts[p].stage == kBlended) blend(scene, scene.parts[p]);
   for (size_t i = 0; i < colour_.size(); ++i) {
@@ -366,9 +367,9 @@ void renderer_render(Renderer* renderer, const Scene* scene, uint8_t* out, const
   renderer->geometry(*scene);
   renderer->shadows(*scene);
   renderer->start(*scene);
-  renderer->hide(*scene, mien::render::kOpaque);
+  renderer->rasterize(*scene, mien::render::kOpaque);
   renderer->visibility(*scene, points, tolerance, count, visible);
-  renderer->hide(*scene, mien::render::kFringe);
+  renderer->rasterize(*scene, mien::render::kFringe);
   renderer->paint(*scene, out);
 }
 

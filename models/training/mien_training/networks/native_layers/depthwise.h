@@ -61,16 +61,16 @@ class Rows {
   std::vector<Lanes> values_;
 };
 
-// begin(row) prepares the rows that a row of the output needs, end(row) is called for rows that are
-// no longer needed.
-class Procession {
+// The rows of the padded input that a row of the output needs, which move down with it. begin(row)
+// is called when a row of the input is first needed, end(row) when it is no longer needed.
+class RowWindow {
  public:
-  explicit Procession(const Geometry& g) : g_(g) {}
+  explicit RowWindow(const Geometry& g) : g_(g) {}
 
   template <typename Begin>
   void advance_to(std::size_t out_row, Rows& seen, Begin begin) {
     for (; begun_ < out_row * g_.shape.stride + 3; ++begun_) {
-      if (real(begun_)) {
+      if (inside(begun_)) {
         begin(begun_ - g_.shape.padding);
       } else {
         seen.clear(begun_);
@@ -78,9 +78,9 @@ class Procession {
     }
   }
   template <typename End>
-  void leave(std::size_t out_row, End end) {
+  void retire(std::size_t out_row, End end) {
     for (; ended_ < (out_row + 1) * g_.shape.stride; ++ended_) {
-      if (real(ended_)) {
+      if (inside(ended_)) {
         end(ended_ - g_.shape.padding);
       }
     }
@@ -88,7 +88,7 @@ class Procession {
   template <typename Begin, typename End>
   void finish(Begin begin, End end) {
     for (; ended_ < g_.padded_height; ++ended_) {
-      if (real(ended_)) {
+      if (inside(ended_)) {
         if (ended_ >= begun_) {
           begin(ended_ - g_.shape.padding);
         }
@@ -98,7 +98,7 @@ class Procession {
   }
 
  private:
-  bool real(std::size_t row) const {
+  bool inside(std::size_t row) const {
     return row >= g_.shape.padding && row < g_.shape.height + g_.shape.padding;
   }
 
@@ -111,7 +111,7 @@ class Procession {
 template <typename T, typename Fill>
 void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::size_t count,
            Lanes& values, Lanes& squares, Fill fill) {
-  Procession rows(g);
+  RowWindow rows(g);
   for (std::size_t y = 0; y < g.out_height; ++y) {
     rows.advance_to(y, seen, fill);
     const std::size_t first = y * g.shape.stride;
@@ -133,9 +133,9 @@ void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::si
 // `seen`; finish(row) is called when a row of `gradient`, the gradient of `seen`, is complete. The
 // gradient of the kernel is added to `dkernel`.
 template <typename SlopeAt, typename Fill, typename Finish>
-void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel, Kernel& dkernel,
-             SlopeAt slope_at, Fill fill, Finish finish) {
-  Procession rows(g);
+void slide_backward(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel,
+                    Kernel& dkernel, SlopeAt slope_at, Fill fill, Finish finish) {
+  RowWindow rows(g);
   const auto begin = [&](std::size_t row) {
     fill(row);
     gradient.clear(row + g.shape.padding);
@@ -158,7 +158,7 @@ void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel
       }
     }
     dkernel = part;
-    rows.leave(y, finish);
+    rows.retire(y, finish);
   }
   rows.finish(begin, finish);
 }
@@ -173,8 +173,8 @@ class OutputGradient {
       : dy_(dy),
         slid_(slid),
         line_(g.shape.channels, norm),
-        descent_(g.out(), norm, line_, sum_gradients(dy, slid, g.out(), norm, line_, kRelu6),
-                 dweight, dbias) {}
+        norm_backward_(g.out(), norm, line_, sum_gradients(dy, slid, g.out(), norm, line_, kRelu6),
+                       dweight, dbias) {}
 
   void prefetch_maps(std::size_t offset, std::size_t count) const {
     prefetch(slid_ + offset, count);
@@ -184,13 +184,13 @@ class OutputGradient {
   Lanes at(std::size_t offset, std::size_t c, std::size_t count) const {
     const Lanes v = load_some(slid_ + offset, count);
     const Lanes dz = passed(line_.at(c, v), kRelu6, load_some(dy_ + offset, count));
-    return descent_.at(line_, c, dz, v);
+    return norm_backward_.at(line_, c, dz, v);
   }
 
  private:
   const T *dy_, *slid_;
   Line line_;
-  Descent descent_;
+  NormBackward norm_backward_;
 };
 
 // Adds a vector of channels of the kernel's gradient to [9][channels].

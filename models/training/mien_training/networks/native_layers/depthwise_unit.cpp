@@ -58,11 +58,12 @@ struct Gradients {
 
 // Replaces the gradient of the normalized map in dx by that of x.
 template <typename T>
-void pass_norm(Map map, const Line& line, const Descent& descent, const T* x, T* dx) {
+void pass_norm(Map map, const Line& line, const NormBackward& norm_backward, const T* x, T* dx) {
   for (std::size_t p = 0; p < map.pixels; ++p, x += map.channels, dx += map.channels) {
     for (std::size_t c = 0; c < map.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, map.channels - c);
-      store_some(dx + c, descent.at(line, c, load_some(dx + c, count), load_some(x + c, count)),
+      store_some(dx + c,
+                 norm_backward.at(line, c, load_some(dx + c, count), load_some(x + c, count)),
                  count);
     }
   }
@@ -91,7 +92,7 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
       const std::size_t slid_picture = i * g.out_pixels() * shape.channels + c;
       Kernel dkernel = {};
       Lanes gradients = {}, products = {};
-      descend(
+      slide_backward(
           g, seen, gradient, kernel_of(weights, shape.channels, c, count), dkernel,
           [&](std::size_t pixel) {
             return slope.at(slid_picture + pixel * shape.channels, c, count);
@@ -119,7 +120,7 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
   }
   std::copy(dweights.begin(), dweights.end(), out.weights);
   if (first.weight) {
-    const Descent before(g.in(), first, line, sums, out.first_weight, out.first_bias);
+    const NormBackward before(g.in(), first, line, sums, out.first_weight, out.first_bias);
     pass_norm(g.in(), line, before, x, dx);
   }
 }

@@ -144,7 +144,7 @@ struct Gradients {
 // The part of the gradient of x that comes from the moments of the expanded map: x B + constant,
 // for a vector of outputs from k on: [narrow / terms] vectors of B.
 template <typename T>
-std::array<Vector<T>, kMaxNarrow> moments_share(const Expansion& e, const Descent& before,
+std::array<Vector<T>, kMaxNarrow> moments_share(const Expansion& e, const NormBackward& before,
                                                 std::size_t k, Lanes& constant) {
   const std::size_t count = std::min(kLanes, e.narrow - k);
   constant = Lanes{};
@@ -161,8 +161,8 @@ std::array<Vector<T>, kMaxNarrow> moments_share(const Expansion& e, const Descen
 }
 
 template <typename T>
-void add_moments_share(const Expansion& e, const Descent& before, const Geometry& g, const T* x,
-                       T* dx) {
+void add_moments_share(const Expansion& e, const NormBackward& before, const Geometry& g,
+                       const T* x, T* dx) {
   const std::size_t pixels = g.shape.width;  // at a time
   std::vector<Lanes> share(pixels);
   for (std::size_t k = 0; k < e.narrow; k += kLanes) {
@@ -180,7 +180,8 @@ void add_moments_share(const Expansion& e, const Descent& before, const Geometry
 }
 
 void expansion_gradient(const Expansion& e, const Gram& gram, const Line& line,
-                        const Descent& before, const std::vector<double>& products, float* out) {
+                        const NormBackward& before, const std::vector<double>& products,
+                        float* out) {
   for (std::size_t c = 0; c < e.channels; ++c) {
     for (std::size_t k = 0; k < e.narrow; ++k) {
       double with_expanded = 0;
@@ -291,7 +292,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
       expansion_backward.begin_channels(c, count, line);
       Kernel dkernel = {};
       Lanes gradients = {}, along = {};
-      descend(
+      slide_backward(
           g, seen, gradient, kernel_of(weights, shape.channels, c, count), dkernel,
           [&](std::size_t pixel) {
             return slope.at(slid_picture + pixel * shape.channels, c, count);
@@ -320,7 +321,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
     expansion_backward.end_image(dx + i * g.pixels() * narrow);
   }
   std::copy(dweights.begin(), dweights.end(), out.weights);
-  const Descent before(g.in(), first, line, sums, out.first_weight, out.first_bias);
+  const NormBackward before(g.in(), first, line, sums, out.first_weight, out.first_bias);
   expansion_gradient(expansion, gram, line, before, expansion_backward.products(), out.expansion);
   add_moments_share(expansion, before, g, x, dx);
 }

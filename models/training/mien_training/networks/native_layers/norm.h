@@ -124,9 +124,10 @@ void normalise(const T* x, Map map, const Line& line, Limits limits, T* y) {
 
 // The gradient of x from that of z. The moments depend on x as well, so dx = scale dz + along x +
 // constant.
-struct Descent {
+struct NormBackward {
   // sums: of dz, and of dz (x - mean). Computes the gradients of weight and bias.
-  Descent(Map map, Norm norm, const Line& line, const Totals& sums, float* dweight, float* dbias) {
+  NormBackward(Map map, Norm norm, const Line& line, const Totals& sums, float* dweight,
+               float* dbias) {
     along.fill(0.0f), constant.fill(0.0f);
     const auto n = static_cast<float>(map.pixels);
     for (std::size_t c = 0; c < map.channels; ++c) {
@@ -144,7 +145,7 @@ struct Descent {
   PerChannel<float> along, constant;
 };
 
-// The sums for Descent, from the gradient dy of y.
+// The sums for NormBackward, from the gradient dy of y.
 template <typename T>
 Totals sum_gradients(const T* dy, const T* x, Map map, Norm norm, const Line& line, Limits limits) {
   Totals sums;

@@ -15,15 +15,15 @@ template <typename T>
 void backward(const T* dy, const T* x, Map map, Limits limits, Norm norm, T* dx, float* dweight,
               float* dbias) {
   const Line line(map.channels, norm);
-  const Descent descent(map, norm, line, sum_gradients(dy, x, map, norm, line, limits), dweight,
-                        dbias);
+  const NormBackward norm_backward(map, norm, line, sum_gradients(dy, x, map, norm, line, limits),
+                                   dweight, dbias);
   for (std::size_t p = 0; p < map.pixels;
        ++p, dy += map.channels, x += map.channels, dx += map.channels) {
     for (std::size_t c = 0; c < map.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, map.channels - c);
       const Lanes v = load_some(x + c, count);
       const Lanes dz = passed(line.at(c, v), limits, load_some(dy + c, count));
-      store_some(dx + c, descent.at(line, c, dz, v), count);
+      store_some(dx + c, norm_backward.at(line, c, dz, v), count);
     }
   }
 }
