@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Compresses a wheel's files again with Zopfli, which finds shorter deflate streams than zlib. Their names, dates, modes and order stay.
+"""Compresses a wheel's files again with Zopfli, which finds shorter deflate streams than zlib.
+
+Names, dates, modes and order of the files stay.
 
 usage: scripts/package/shrink_wheel.py WHEEL      needs the packages of wheel_requirements.txt
 """
@@ -30,7 +32,8 @@ def fields(info, packed):
     """What both headers of an entry have in common, after their magic numbers and versions."""
     year, month, day, hour, minute, second = info.date_time
     time, date = hour << 11 | minute << 5 | second // 2, (year - 1980) << 9 | month << 5 | day
-    return struct.pack("<4H3I2H", 0, zipfile.ZIP_DEFLATED, time, date, info.CRC, len(packed), info.file_size, len(info.filename), 0)
+    sizes = len(packed), info.file_size, len(info.filename), 0
+    return struct.pack("<4H3I2H", 0, zipfile.ZIP_DEFLATED, time, date, info.CRC, *sizes)
 
 
 def shrunk(archive):
