@@ -109,7 +109,7 @@ class ModelAvatar {
     canvas.addEventListener('dblclick', () => this.controls.reset());
   }
 
-  // The head alone, if the model has a body below it: what hangs on its bone, or else what is above the bone.
+  // The head alone, if the model has a body below it: the nodes on its bone if they have a face, or else everything above the bone.
   headBounds() {
     const boxOf = node => new Box3().setFromObject(node, true), whole = box => {
       const {x, y} = box.getSize(new Vector3());
