@@ -256,15 +256,18 @@ float Tracker::next_roll() const {
   return n % 4 < 2 ? 0.0f : kRolls[(n / 4 * 2 + n % 2) % kRolls.size()];
 }
 
-// The first coarse search after a loss uses the roll of the lost face. Every second pass uses rolls
-// halfway between those of the first.
+// The first coarse search after a loss uses the roll of the lost face. Passes alternate between
+// kRolls and the rolls halfway between their neighbors; each begins upright.
 float Tracker::next_coarse_roll() const {
-  const std::uint32_t n = state_.coarse_searches;
-  const std::size_t i = n % (kRolls.size() + 1);
-  if (i == 0) {
+  constexpr std::uint32_t kFirstPass = 1 + kRolls.size(), kSecondPass = kFirstPass + 1;
+  const std::uint32_t n = state_.coarse_searches, i = n % (kFirstPass + kSecondPass);
+  if (i == 0 || i == kFirstPass) {
     return n == 0 ? lost_roll() : 0.0f;
   }
-  return kRolls[i - 1] + (n / (kRolls.size() + 1) % 2 == 0 ? 0.0f : kEighth / 2);
+  if (i < kFirstPass) {
+    return kRolls[i - 1];
+  }
+  return kEighth / 2 + (i == kFirstPass + 1 ? 0.0f : kRolls[i - kFirstPass - 2]);
 }
 
 float Tracker::lost_roll() const {
