@@ -113,7 +113,7 @@ def impulses(rng, count):
     return out
 
 
-def call(rng, count):
+def gliding_tone(rng, count):
     """Harmonics of a pitch that glides and trembles, as of animals, hinges and sirens."""
     t = np.arange(count, dtype=np.float32) / count
     octaves = rng.uniform(-1, 1) * t + rng.uniform(-0.7, 0.7) * np.sin(np.pi * t)
@@ -127,11 +127,11 @@ def call(rng, count):
     return np.float32(out * rough * np.minimum(1, np.minimum(t, 1 - t) / rng.uniform(0.02, 0.5)))
 
 
-def calls(rng, count):
+def gliding_tones(rng, count):
     out = np.zeros(count, np.float32)
     for _ in range(rng.integers(1, 4)):
         at, length = rng.integers(count), int(RATE * rng.uniform(0.15, 1.5))
-        out[at:at + length] += rng.uniform(0.3, 1) * call(rng, length)[:count - at]
+        out[at:at + length] += rng.uniform(0.3, 1) * gliding_tone(rng, length)[:count - at]
     return out
 
 
@@ -148,7 +148,7 @@ def varied_noise(rng, split, count):
 
 
 RECORDED = 0.5  # share of noises; of the others:
-MADE_NOISES = {coloured_noise: 0.36, part_of_tune: 0.28, calls: 0.2, impulses: 0.16}
+MADE_NOISES = {coloured_noise: 0.36, part_of_tune: 0.28, gliding_tones: 0.2, impulses: 0.16}
 
 
 def some_noise(rng, split, count):

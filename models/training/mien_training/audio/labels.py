@@ -10,9 +10,9 @@ from mien_training.audio.features import seconds_of_steps
 
 @dataclass
 class Spoken:
-    labels: list   # numbers of phonemes.py
-    starts: list   # seconds; each lasts until the next
-    end: float
+    labels: list   # phonemes, as in phonemes.py
+    starts: list   # of the phonemes, in seconds; each lasts until the next
+    end: float     # of the last
 
     def between(self, start, end, speed=1.0):
         """The part from `start` to `end`, its times from `start` on, played `speed` times as fast."""

@@ -90,7 +90,7 @@ inline Vec3 from_environment(const Light& light, Vec3 n) {
   return {std::max(sum[0], 0.0f), std::max(sum[1], 0.0f), std::max(sum[2], 0.0f)};
 }
 
-// Points of surfaces whose light is wanted, field by field.
+// Surface points to shade, as a structure of arrays.
 struct Batch {
   static constexpr int kSize = 1024;
   int count = 0;

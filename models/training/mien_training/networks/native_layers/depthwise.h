@@ -163,7 +163,7 @@ void slide_backward(const Geometry& g, Rows& seen, Rows& gradient, const Kernel&
   rows.finish(begin, finish);
 }
 
-// The gradient of the convolution's output `slid`, from the gradient dy of y = ReLU6(norm(slid)).
+// The gradient of the convolution's output, from dy, the gradient of y = ReLU6(norm(output)).
 // Computes the gradients of the norm's weight and bias.
 template <typename T>
 class OutputGradient {
