@@ -30,8 +30,8 @@ struct BlockTiling {
 // Whether fused blocks use half precision.
 [[nodiscard]] bool uses_half_precision(std::uint32_t cpu_mask);
 
-// Whether fused blocks use quantized pointwise weights, for layers of up to
-// kernels::kQuantizedWeightsMaxInputs inputs, and 8 bits for those with an input bound.
+// Whether fused blocks use pointwise weights of 16 bits, for layers of up to
+// kernels::kQuantizedWeightsMaxInputs inputs, and of 8 bits for those with an input bound.
 [[nodiscard]] bool quantizes_weights(std::uint32_t cpu_mask);
 [[nodiscard]] bool has_int8(std::uint32_t cpu_mask);
 

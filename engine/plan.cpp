@@ -198,17 +198,21 @@ std::size_t Plan::state_elems(std::uint32_t layer) const {
 // Longer sums are computed in fp32. Without an expand layer, x and hidden are the same value.
 bool Plan::is_quantized(std::uint32_t layer, std::uint32_t depthwise_layer) const {
   const std::uint32_t x = layers_[layer].input, hidden = layers_[depthwise_layer].input;
-  return quantizes_weights_ && values_[x].shape.c <= kernels::kQuantizedWeightsMaxInputs &&
+  return (quantizes_weights_ || has_int8_) &&
+         values_[x].shape.c <= kernels::kQuantizedWeightsMaxInputs &&
          values_[hidden].shape.c <= kernels::kQuantizedWeightsMaxInputs;
 }
 
 // Whether the block's input is copied to 16 bits per value before the expand layer.
 bool Plan::has_half_input(std::uint32_t layer, std::uint32_t depthwise_layer) const {
-  if (layer == depthwise_layer || quantizes_weights_) {
-    return layer < depthwise_layer && is_quantized(layer, depthwise_layer);
+  if (layer == depthwise_layer) {
+    return false;
+  }
+  if (is_quantized(layer, depthwise_layer) && quantized_layer(layer).is_quantized) {
+    return true;
   }
   const LayerRecord& depthwise = layers_[depthwise_layer];
-  return uses_half_precision_ &&
+  return uses_half_precision_ && !quantizes_weights_ &&
          kernels::has_short_half_sums(values_[layers_[layer].input].shape.c,
                                       depthwise.kernel_height, depthwise.kernel_width);
 }
@@ -227,8 +231,9 @@ std::size_t Plan::weights_bytes(std::uint32_t layer) const {
 QuantizedLayer Plan::quantized_layer(std::uint32_t layer) const {
   const LayerRecord& l = layers_[layer];
   const bool reads_map = parts_[layer] == Part::kStep;  // an expand layer begins its block
-  return {values_[l.input].shape.c, values_[layer + 1].shape.c, reads_map,
-          has_int8_ ? l.input_bound : 0.0f};
+  const float bound = has_int8_ ? l.input_bound : 0.0f;
+  return {values_[l.input].shape.c, values_[layer + 1].shape.c, quantizes_weights_ || bound > 0.0f,
+          reads_map, bound};
 }
 
 std::size_t Plan::scratch_elems(std::uint32_t layer) const {

@@ -56,11 +56,10 @@ mien_status to_int8(const QuantizedLayer& layer, std::uint32_t cpu_mask, std::by
   auto args = args_of<kernels::QuantizeToInt8Args>(layer, weights);
   args.quads = reinterpret_cast<std::int8_t*>(to);
   args.scales = reinterpret_cast<float*>(to + int8_count(layer));
-  args.offsets = args.scales + std::ptrdiff_t{args.out_blocks} * 8;
-  args.input_shift = layer.reads_map ? kernels::kInt8Shift : 0;
+  args.sums = args.scales + std::ptrdiff_t{args.out_blocks} * 8;
   weights.quads = args.quads;
   weights.scales = args.scales;
-  weights.offsets = args.offsets;
+  weights.sums = args.sums;
   weights.input_bound = layer.input_bound;
   return run(args, cpu_mask);
 }
@@ -68,6 +67,9 @@ mien_status to_int8(const QuantizedLayer& layer, std::uint32_t cpu_mask, std::by
 }  // namespace
 
 std::size_t quantized_weights_bytes(const QuantizedLayer& layer) {
+  if (!layer.is_quantized) {
+    return 0;
+  }
   const std::size_t floats = static_cast<std::size_t>(blocks_of(layer.out_c)) * 8 * sizeof(float);
   return layer.input_bound > 0.0f
              ? aligned(static_cast<std::size_t>(int8_count(layer)) + 2 * floats)
@@ -77,6 +79,9 @@ std::size_t quantized_weights_bytes(const QuantizedLayer& layer) {
 
 mien_status quantize_weights(const QuantizedLayer& layer, std::uint32_t cpu_mask, std::byte* to,
                              Weights& weights) {
+  if (!layer.is_quantized) {
+    return MIEN_OK;
+  }
   return layer.input_bound > 0.0f ? to_int8(layer, cpu_mask, to, weights)
                                   : to_int16(layer, cpu_mask, to, weights);
 }

@@ -13,11 +13,12 @@ namespace mien::engine {
 // A pointwise layer of a fused block.
 struct QuantizedLayer {
   std::int32_t in_c, out_c;
+  bool is_quantized;  // otherwise its weights remain as they are
   bool reads_map;     // not a band
   float input_bound;  // 0: 16 bits, else 8
 };
 
-// Memory of the weights of one layer: integers, scales and, with 8 bits, offsets.
+// Memory of the weights of one layer: integers, scales and, with 8 bits, sums.
 [[nodiscard]] std::size_t quantized_weights_bytes(const QuantizedLayer& layer);
 
 // Quantizes `weights` into that memory, which must be aligned for floats. Returns

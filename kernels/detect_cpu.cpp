@@ -18,17 +18,23 @@ namespace mien::kernels {
 namespace {
 
 #ifdef MIEN_HAVE_NEONFP16
-bool has_neon_fp16() {
+// `hwcap`: a bit of the Linux kernel's asm/hwcap.h for AArch64; `sysctl`: Apple's name.
+bool has_feature([[maybe_unused]] unsigned long hwcap, [[maybe_unused]] const char* sysctl) {
 #if defined(__linux__)
-  constexpr unsigned long kHwcapAsimdHp = 1ul << 10;  // the Linux kernel's asm/hwcap.h for AArch64
-  return (getauxval(AT_HWCAP) & kHwcapAsimdHp) != 0;
+  return (getauxval(AT_HWCAP) & hwcap) != 0;
 #elif defined(__APPLE__)
   int has = 0;
   std::size_t bytes = sizeof has;
-  return sysctlbyname("hw.optional.arm.FEAT_FP16", &has, &bytes, nullptr, 0) == 0 && has != 0;
+  return sysctlbyname(sysctl, &has, &bytes, nullptr, 0) == 0 && has != 0;
 #else
   return false;
 #endif
+}
+bool has_neon_fp16() { return has_feature(1ul << 10, "hw.optional.arm.FEAT_FP16"); }
+#endif
+#ifdef MIEN_HAVE_NEONDOT
+bool has_neon_dot() {
+  return has_neon_fp16() && has_feature(1ul << 20, "hw.optional.arm.FEAT_DotProd");
 }
 #endif
 
@@ -62,6 +68,11 @@ std::uint32_t ask_cpu() {
 #ifdef MIEN_HAVE_NEONFP16
   if (has_neon_fp16()) {
     mask |= bit(Tier::kNeonFp16);
+  }
+#endif
+#ifdef MIEN_HAVE_NEONDOT
+  if (has_neon_dot()) {
+    mask |= bit(Tier::kNeonDot);
   }
 #endif
 #ifdef MIEN_HAVE_NEON32

@@ -29,6 +29,8 @@ const char* name(Tier tier) {
       return "avxvnni";
     case Tier::kWasmInt16:
       return "wasmint16";
+    case Tier::kNeonDot:
+      return "neondot";
   }
   return nullptr;
 }

@@ -34,6 +34,11 @@ set(mien_neonfp16_families causal_conv fully_connected lstm)
 set(mien_neonfp16_extra
   fma_peak/neonfp16.cpp inverted_residual/neonfp16.cpp inverted_residual/neonfp16_product.cpp)
 
+set(mien_neondot_families "")
+set(mien_neondot_extra
+  fma_peak/neondot.cpp inverted_residual/neondot.cpp inverted_residual/neondot_product.cpp
+  quantize_to_int8/neondot.cpp)
+
 function(mien_tier_sources tier output)
   set(families ${mien_tier_families})
   set(simd_families ${mien_simd_families})

@@ -42,6 +42,7 @@ inline constexpr Arithmetic kQuantizedArithmetic{kUnit, kFlushed, std::numeric_l
                                                  true};
 inline constexpr Arithmetic kInt8Arithmetic{kUnit, kFlushed, std::numeric_limits<int>::max(), true,
                                             true};
+inline constexpr Arithmetic kHalfOrInt8Arithmetic{0x1p-11, 0x1p-24, 64, false, true};
 // For sums that become fp16 in the end.
 [[nodiscard]] inline Arithmetic in_one_chunk(Arithmetic by) {
   by.chunk = std::numeric_limits<int>::max();

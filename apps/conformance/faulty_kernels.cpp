@@ -144,19 +144,38 @@ void correct_block(const InvertedResidualArgs& a) {
   kernels::find<InvertedResidualArgs>(kernels::bit(kernels::Tier::kRef))(a);
 }
 
+// The biases of a layer whose inputs of 8 bits are too large by `shift`. `max`: integer of their
+// bound.
+std::vector<std::uint16_t> shifted_bias(const InvertedResidualArgs::Weights& layer, int outputs,
+                                        float shift, float max) {
+  std::vector<std::uint16_t> bias(layer.bias, layer.bias + padded(outputs));
+  for (std::size_t o = 0; o < bias.size(); ++o) {
+    const float scale = layer.scales[o] * layer.input_bound / max;
+    const float shifted = formats::float_from_fp16(bias[o]) + shift * layer.sums[o] * scale;
+    bias[o] = formats::fp16_from_float(shifted);
+  }
+  return bias;
+}
+
 // Takes unsigned inputs of 8 bits, to which kInt8Shift was added, for signed ones.
 void forgets_int8_offsets(const InvertedResidualArgs& a) {
   if (a.expand.quads == nullptr) {
     return correct_block(a);
   }
   InvertedResidualArgs wrong = a;
-  std::vector<std::uint16_t> bias(a.expand.bias, a.expand.bias + padded(a.hidden_c));
-  for (std::size_t o = 0; o < bias.size(); ++o) {
-    const float scale = a.expand.scales[o] * a.expand.input_bound / 127.0f;
-    const float shifted = formats::float_from_fp16(bias[o]) - a.expand.offsets[o] * scale;
-    bias[o] = formats::fp16_from_float(shifted);
-  }
+  const auto bias = shifted_bias(a.expand, a.hidden_c, kernels::kInt8Shift, kernels::kInt8MapMax);
   wrong.expand.bias = bias.data();
+  correct_block(wrong);
+}
+
+// Takes signed inputs of project, from which kInt8Shift was subtracted, for unsigned ones.
+void forgets_signed_offsets(const InvertedResidualArgs& a) {
+  if (a.project.quads == nullptr) {
+    return correct_block(a);
+  }
+  InvertedResidualArgs wrong = a;
+  const auto bias = shifted_bias(a.project, a.out_c, -kernels::kInt8Shift, kernels::kInt8BandMax);
+  wrong.project.bias = bias.data();
   correct_block(wrong);
 }
 
@@ -205,7 +224,7 @@ std::span<const FaultyKernel> faulty_kernels() {
                     registers = register_convention() != nullptr;
   constexpr const char* kDense = "fully_connected";
   constexpr const char* kBlock = "inverted_residual";
-  constexpr kernels::Tier kInt8 = kernels::Tier::kAvxVnni;
+  constexpr kernels::Tier kInt8 = kernels::Tier::kAvxVnni, kSigned = kernels::Tier::kNeonDot;
   // The first buffers end at a guard page; without guard pages, a stray write changes the border.
   static const Fault stray = crashes ? Fault::kCrashes : Fault::kTouchesBorder;
   static const FaultyKernel kFaults[] = {
@@ -238,6 +257,12 @@ std::span<const FaultyKernel> faulty_kernels() {
        kInt8},
       {"8 bits saturate early", kBlock, any(saturates_int8_early), Fault::kWrongResult, true,
        kInt8},
+      {"nothing: block with signed 8 bits", kBlock, any(correct_block), Fault::kNone, true,
+       kSigned},
+      {"forgets offsets of signed 8 bits", kBlock, any(forgets_signed_offsets), Fault::kWrongResult,
+       true, kSigned},
+      {"signed 8 bits saturate early", kBlock, any(saturates_int8_early), Fault::kWrongResult, true,
+       kSigned},
   };
   return kFaults;
 }

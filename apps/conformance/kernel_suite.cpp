@@ -18,10 +18,13 @@ std::string where(std::uint64_t seed, const RandomValues& random) {
 }  // namespace
 
 const Arithmetic& arithmetic_of(kernels::Tier tier) {
-  return kernels::has_int8(tier)       ? kInt8Arithmetic
-         : kernels::is_quantized(tier) ? kQuantizedArithmetic
-         : kernels::is_half(tier)      ? kHalfArithmetic
-                                       : kSingleArithmetic;
+  const bool has_int8 = kernels::has_int8(tier);
+  if (kernels::is_quantized(tier)) {
+    return has_int8 ? kInt8Arithmetic : kQuantizedArithmetic;
+  }
+  return has_int8                 ? kHalfOrInt8Arithmetic
+         : kernels::is_half(tier) ? kHalfArithmetic
+                                  : kSingleArithmetic;
 }
 
 Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases) {

@@ -45,7 +45,7 @@ struct Channels {
         taps(args.weights +
                  std::ptrdiff_t{channel / kBlock} * args.kernel_h * args.kernel_w * kBlock +
                  channel % kBlock,
-             kLanes, args.bias + channel, kLanes, activator.low(), activator.high()) {}
+             kLanes, args.bias + channel, kLanes, {activator.low(), activator.high()}) {}
 
   // Address of output (oy, ox), and of the first input in its window.
   [[nodiscard]] float* output(std::int32_t oy, std::int32_t ox) const {
@@ -77,9 +77,7 @@ void edge_output(const Channels& ch, std::int32_t oy, std::int32_t ox) {
       }
     }
   }
-  MIEN_UNROLLED for (int v = 0; v < Floats::kVecs; ++v) {
-    vst1q_f32(y + v * kLanes, vminq_f32(vmaxq_f32(sums[v], ch.taps.low), ch.taps.high));
-  }
+  ch.taps.finish.store(y, sums);
 }
 
 void edge_outputs(const Channels& ch, std::int32_t oy, std::int32_t first, std::int32_t last) {

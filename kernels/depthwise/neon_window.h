@@ -1,5 +1,6 @@
 // 3x3 windows inside the map, computed as tiles of 2x2 outputs: the weights of the channels stay in
-// registers, and every input is loaded once. Values are Floats or Halves (common/neon_half.h).
+// registers, and every input is loaded once. Values are Floats, or those of
+// inverted_residual/neon_half_strips.h.
 #pragma once
 
 #include "kernels/common/neon.h"
@@ -10,9 +11,22 @@ constexpr int kMaxOutputs = 4;  // outputs of a tile
 
 namespace {
 
+// Clamps and stores the kVecs vectors of an output.
+template <class N>
+struct Clamp {
+  using Output = typename N::Value;
+  typename N::Vec low, high;
+  [[gnu::always_inline]] void store(Output* y, const typename N::Vec (&sums)[N::kVecs]) const {
+    MIEN_UNROLLED for (int v = 0; v < N::kVecs; ++v) {
+      N::store(y + v * N::kLanes, N::clamped(sums[v], low, high));
+    }
+  }
+};
+
 struct Floats {
   using Value = float;
   using Vec = MIEN_TIER::Vec;
+  using Finish = Clamp<Floats>;
   static constexpr int kLanes = MIEN_TIER::kLanes;
 // Number of channel vectors computed together: their 9 weights fill half of the registers.
 #ifdef MIEN_NEON64
@@ -33,15 +47,14 @@ template <class N>
 struct Taps {
   const std::uint16_t* weights;  // [kernel_h][kernel_w][8]
   std::ptrdiff_t vec_elems;      // distance between vectors
-  typename N::Vec low, high;
+  typename N::Finish finish;
   // One copy per sum of a tile: a load costs no time, but a copy between registers would occupy the
   // units that multiply.
   typename N::Value biases[kMaxOutputs * N::kVecs * N::kLanes];
 
   Taps(const std::uint16_t* first_weights, std::ptrdiff_t weights_vec_elems,
-       const std::uint16_t* bias, std::ptrdiff_t bias_vec_elems, typename N::Vec lowest,
-       typename N::Vec highest)
-      : weights(first_weights), vec_elems(weights_vec_elems), low(lowest), high(highest) {
+       const std::uint16_t* bias, std::ptrdiff_t bias_vec_elems, const typename N::Finish& by)
+      : weights(first_weights), vec_elems(weights_vec_elems), finish(by) {
     for (int i = 0; i < kMaxOutputs * N::kVecs; ++i) {
       N::store(biases + i * N::kLanes, N::weights(bias + i % N::kVecs * bias_vec_elems));
     }
@@ -52,11 +65,11 @@ struct Taps {
 template <class N>
 struct Window {
   typename N::Vec w[9][N::kVecs];
-  typename N::Vec low, high;
+  typename N::Finish finish;
   const typename N::Value* biases;
 
   [[gnu::always_inline]] explicit Window(const Taps<N>& taps)
-      : low(taps.low), high(taps.high), biases(taps.biases) {
+      : finish(taps.finish), biases(taps.biases) {
     MIEN_UNROLLED for (int i = 0; i < 9 * N::kVecs; ++i) {
       const int tap = i / N::kVecs, v = i % N::kVecs;
       w[tap][v] = N::weights(taps.weights + tap * kBlock + v * taps.vec_elems);
@@ -69,7 +82,7 @@ template <class N>
 struct Rows {
   const typename N::Value* x;
   std::ptrdiff_t x_row;
-  typename N::Value* y;
+  typename N::Finish::Output* y;
   std::ptrdiff_t y_row;
 };
 
@@ -87,7 +100,7 @@ template <class T>
 // Adds each input to the sums of all outputs whose windows contain it.
 template <class N, int kRows, int kColumns, int kStride, int kXPixel, int kYPixel>
 [[gnu::always_inline]] inline void tile(const Window<N>& window, const typename N::Value* x,
-                                        std::ptrdiff_t x_row, typename N::Value* y,
+                                        std::ptrdiff_t x_row, typename N::Finish::Output* y,
                                         std::ptrdiff_t y_row) {
   constexpr int kVecs = N::kVecs;
   typename N::Vec sums[kRows * kColumns][kVecs];
@@ -112,11 +125,9 @@ template <class N, int kRows, int kColumns, int kStride, int kXPixel, int kYPixe
     }
   }
   MIEN_UNROLLED for (int i = 0; i < kRows; ++i) {
-    typename N::Value* row = opaque(y + i * y_row);
-    MIEN_UNROLLED for (int j = 0; j < kColumns * kVecs; ++j) {
-      const typename N::Vec sum = sums[i * kColumns + j / kVecs][j % kVecs];
-      N::store(row + j / kVecs * kYPixel + j % kVecs * N::kLanes,
-               N::clamped(sum, window.low, window.high));
+    typename N::Finish::Output* row = opaque(y + i * y_row);
+    MIEN_UNROLLED for (int j = 0; j < kColumns; ++j) {
+      window.finish.store(row + j * kYPixel, sums[i * kColumns + j]);
     }
   }
 }
@@ -126,7 +137,7 @@ template <class N, int kRows, int kStride, int kXPixel, int kYPixel>
 [[gnu::noinline]] void whole_outputs(const Taps<N>& taps, const Rows<N>& at, std::int32_t columns) {
   const Window<N> window(taps);
   const typename N::Value* x = at.x;
-  typename N::Value* y = at.y;
+  typename N::Finish::Output* y = at.y;
   const std::ptrdiff_t x_row = at.x_row, y_row = at.y_row;
   for (std::int32_t left = columns / 2; left > 0; --left) {
     tile<N, kRows, 2, kStride, kXPixel, kYPixel>(window, x, x_row, y, y_row);

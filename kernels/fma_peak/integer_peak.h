@@ -1,4 +1,4 @@
-// fma_peak of tiers that multiply 16-bit integers.
+// fma_peak of tiers that multiply integers.
 #pragma once
 
 #include "kernels/fma_peak/fma_peak.h"

@@ -55,7 +55,8 @@ struct Finish {
         scale(_mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale))),
         bias(load_half(a.to.bias + channel)) {
     if (a.is_int8()) {
-      bias = _mm256_fmadd_ps(_mm256_loadu_ps(a.offsets + channel), scale, bias);
+      const Vec shift = _mm256_mul_ps(_mm256_loadu_ps(a.sums + channel), _mm256_set1_ps(a.x_shift));
+      bias = _mm256_fnmadd_ps(shift, scale, bias);
     }
   }
   [[nodiscard]] Vec of(__m256i sum) const {

@@ -68,7 +68,9 @@ struct Finish {
       scale[v] = _mm512_mul_ps(_mm512_loadu_ps(a.scales + channel), _mm512_set1_ps(a.x_scale));
       bias[v] = avx512::load_half(a.to.bias + channel);
       if (a.is_int8()) {
-        bias[v] = _mm512_fmadd_ps(_mm512_loadu_ps(a.offsets + channel), scale[v], bias[v]);
+        const Vec shift =
+            _mm512_mul_ps(_mm512_loadu_ps(a.sums + channel), _mm512_set1_ps(a.x_shift));
+        bias[v] = _mm512_fnmadd_ps(shift, scale[v], bias[v]);
       }
     }
   }
@@ -98,7 +100,9 @@ struct HalfFinish {
     scale = _mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale));
     bias = _mm512_castps512_ps256(avx512::load_half(a.to.bias + channel, 0xFF));
     if (a.is_int8()) {
-      bias = _mm256_fmadd_ps(_mm256_loadu_ps(a.offsets + channel), scale, bias);
+      const __m256 shift =
+          _mm256_mul_ps(_mm256_loadu_ps(a.sums + channel), _mm256_set1_ps(a.x_shift));
+      bias = _mm256_fnmadd_ps(shift, scale, bias);
     }
   }
   template <bool kResidual>

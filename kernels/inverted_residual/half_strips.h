@@ -11,6 +11,61 @@
 namespace mien::kernels {
 namespace {
 
+inline std::int32_t half_blocks(std::int32_t channels) {
+  return (channels + kStripBlock - 1) / kStripBlock;
+}
+
+// Arguments to expand `rows` rows of the map, without their values.
+inline HalfProduct half_expansion(const InvertedResidualArgs& a, const StripPart& part,
+                                  std::int32_t rows) {
+  const StripClamp clamp = clamp_of(a.expand.activation);
+  const std::ptrdiff_t channel = std::ptrdiff_t{part.first} * kStripBlock;
+  HalfProduct product{};
+  product.in_blocks = half_blocks(a.in_c);
+  product.pixels = rows * a.in_w;
+  product.weights = a.expand.weights + channel * product.in_blocks * kStripBlock;
+  product.bias = a.expand.bias + channel;
+  product.out_blocks = part.count;
+  product.low = clamp.low;
+  product.high = clamp.high;
+  return product;
+}
+
+// Where to write them.
+inline StripRows strip_rows(const InvertedResidualArgs& a, const StripPart& part, Half* y) {
+  return {y, part.panel_elems, part.row_elems, a.in_w};
+}
+
+// Arguments to project `rows` rows of the band, without their values.
+inline HalfProduct half_projection(const InvertedResidualArgs& a, std::int32_t rows) {
+  const StripClamp clamp = clamp_of(a.project.activation);
+  HalfProduct product{};
+  product.in_blocks = half_blocks(a.hidden_c);
+  product.pixels = rows * a.out_w;
+  product.weights = a.project.weights;
+  product.bias = a.project.bias;
+  product.out_blocks = half_blocks(a.out_c);
+  product.low = clamp.low;
+  product.high = clamp.high;
+  return product;
+}
+
+// The output rows from `first` on.
+inline MapRows map_rows(const InvertedResidualArgs& a, std::int32_t first) {
+  MapRows to{};
+  to.y = a.y + std::ptrdiff_t{first} * a.out_w * kStripBlock;
+  to.plane_elems = std::ptrdiff_t{a.out_h} * a.out_w * kStripBlock;
+  to.row_pixels = a.out_w;
+  if (a.residual != nullptr) {
+    const std::ptrdiff_t pixel =
+        std::ptrdiff_t{first + a.residual_top} * a.residual_w + a.residual_left;
+    to.residual = a.residual + pixel * kStripBlock;
+    to.residual_plane_elems = std::ptrdiff_t{a.residual_h} * a.residual_w * kStripBlock;
+    to.residual_row_elems = std::ptrdiff_t{a.residual_w} * kStripBlock;
+  }
+  return to;
+}
+
 // The block's input in half precision and the band: [panel][pixel][kPanel].
 template <class Tier>
 class HalfStrips {
@@ -34,7 +89,7 @@ class HalfStrips {
     }
     first_row_ = first;
     x_panel_elems_ = std::ptrdiff_t{rows} * a_.in_w * kPanel;
-    const std::int32_t blocks = blocks_of(a_.in_c);
+    const std::int32_t blocks = half_blocks(a_.in_c);
     for (std::int32_t block = 0; block < blocks; block += kBlocks) {
       convert_row(block, blocks - block, first, rows * a_.in_w,
                   x_ + block / kBlocks * x_panel_elems_);
@@ -42,19 +97,10 @@ class HalfStrips {
   }
 
   void expand(const StripPart& part, std::int32_t row, std::int32_t rows, Half* y) const {
-    const StripClamp clamp = clamp_of(a_.expand.activation);
-    const std::ptrdiff_t channel = std::ptrdiff_t{part.first} * kStripBlock;
-    HalfProduct product{};
+    HalfProduct product = half_expansion(a_, part, rows);
     product.x = x_ + std::ptrdiff_t{row - first_row_} * a_.in_w * kPanel;
     product.x_panel_elems = x_panel_elems_;
-    product.in_blocks = blocks_of(a_.in_c);
-    product.pixels = rows * a_.in_w;
-    product.weights = a_.expand.weights + channel * product.in_blocks * kStripBlock;
-    product.bias = a_.expand.bias + channel;
-    product.out_blocks = part.count;
-    product.low = clamp.low;
-    product.high = clamp.high;
-    Tier::multiply_to_strip(product, {y, part.panel_elems, part.row_elems, a_.in_w});
+    Tier::multiply_to_strip(product, strip_rows(a_, part, y));
   }
 
   void copy(const StripPart& part, std::int32_t row, std::int32_t rows, Half* y) const {
@@ -72,35 +118,14 @@ class HalfStrips {
   }
 
   void project(std::int32_t first, std::int32_t rows) const {
-    const StripClamp clamp = clamp_of(a_.project.activation);
-    HalfProduct product{};
+    HalfProduct product = half_projection(a_, rows);
     product.x = band_;
     product.x_panel_elems = std::ptrdiff_t{rows} * a_.out_w * kPanel;
-    product.in_blocks = blocks_of(a_.hidden_c);
-    product.pixels = rows * a_.out_w;
-    product.weights = a_.project.weights;
-    product.bias = a_.project.bias;
-    product.out_blocks = blocks_of(a_.out_c);
-    product.low = clamp.low;
-    product.high = clamp.high;
-    MapRows to{};
-    to.y = a_.y + std::ptrdiff_t{first} * a_.out_w * kStripBlock;
-    to.plane_elems = std::ptrdiff_t{a_.out_h} * a_.out_w * kStripBlock;
-    to.row_pixels = a_.out_w;
-    if (a_.residual != nullptr) {
-      const std::ptrdiff_t pixel =
-          std::ptrdiff_t{first + a_.residual_top} * a_.residual_w + a_.residual_left;
-      to.residual = a_.residual + pixel * kStripBlock;
-      to.residual_plane_elems = std::ptrdiff_t{a_.residual_h} * a_.residual_w * kStripBlock;
-      to.residual_row_elems = std::ptrdiff_t{a_.residual_w} * kStripBlock;
-    }
-    Tier::multiply_to_map(product, to, a_.fp32_weights);
+    Tier::multiply_to_map(product, map_rows(a_, first), a_.fp32_weights);
   }
 
  private:
   static constexpr std::int32_t kBlocks = kPanel / kStripBlock;  // blocks per panel
-
-  static std::int32_t blocks_of(std::int32_t channels) { return (channels + 7) / kStripBlock; }
 
   // Converts up to a panel of blocks of `pixels` pixels, from the start of a map row on.
   void convert_row(std::int32_t block, std::int32_t blocks, std::int32_t row, std::int32_t pixels,

@@ -36,10 +36,10 @@ struct InvertedResidualArgs {
     // The quantized weights (quantize_weights.h); nullptr for tiers that do not use them.
     const std::int16_t* pairs;
     const float* scales;
-    // Weights of 8 bits (quantize_to_int8.h), used instead of `pairs`; nullptr without them. Inputs
-    // of the layer are clamped to this bound, which is positive.
+    // Weights of 8 bits and their sums (quantize_to_int8.h), used instead of `pairs`; nullptr
+    // without them. Inputs of the layer are clamped to this bound, which is positive.
     const std::int8_t* quads;
-    const float* offsets;
+    const float* sums;
     float input_bound;
   };
   const float* x;
@@ -82,7 +82,8 @@ inline constexpr std::int32_t kHalfMaxExpandInputs = 128, kHalfMaxTaps = 64;
 // one bit less, which leaves one more to its weights, whose sums are longer.
 inline constexpr std::int32_t kQuantizedMapMax = 32767, kQuantizedBandMax = 16383;
 
-// The same with 8 bits. The map's values are stored as value + kInt8Shift.
+// The same with 8 bits. Tiers that multiply unsigned values store those of the map as value +
+// kInt8Shift, tiers that multiply signed values those of the band as value - kInt8Shift.
 inline constexpr std::int32_t kInt8MapMax = 127, kInt8BandMax = 255, kInt8Shift = 128;
 
 }  // namespace mien::kernels

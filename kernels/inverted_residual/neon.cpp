@@ -13,7 +13,7 @@ void depthwise_channels(const InvertedResidualArgs& a, const DepthwisePart<float
   const std::ptrdiff_t block = s.block + half;
   const Taps<Floats> taps(a.depthwise.weights + block * a.kernel_h * a.kernel_w * kBlock + lane,
                           kLanes, a.depthwise.bias + block * kBlock + lane, kLanes,
-                          splat(s.clamp.low), splat(s.clamp.high));
+                          {splat(s.clamp.low), splat(s.clamp.high)});
   const Rows<Floats> at{s.x + channel, s.x_row_elems,
                         band_at(a, s) + half * band_plane(a, s) + lane,
                         std::ptrdiff_t{a.out_w} * kBlock};

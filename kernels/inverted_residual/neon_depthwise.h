@@ -16,6 +16,7 @@ void depthwise_any(const InvertedResidualArgs& a, const Taps<N>& taps, const Row
     const std::int32_t oy = i / a.out_w, ox = i % a.out_w;
     const auto* x = at.x + oy * a.stride_h * at.x_row + std::ptrdiff_t{ox} * a.stride_w * kPanel;
     auto* y = at.y + oy * at.y_row + std::ptrdiff_t{ox} * kYPixel;
+    typename N::Vec sums[N::kVecs];
     MIEN_UNROLLED for (int v = 0; v < N::kVecs; ++v) {
       typename N::Vec sum = N::load(taps.biases + v * N::kLanes);
       const std::uint16_t* w = taps.weights + v * taps.vec_elems;
@@ -25,8 +26,9 @@ void depthwise_any(const InvertedResidualArgs& a, const Taps<N>& taps, const Row
           sum = N::fma(sum, N::load(input), N::weights(w));
         }
       }
-      N::store(y + v * N::kLanes, N::clamped(sum, taps.low, taps.high));
+      sums[v] = sum;
     }
+    taps.finish.store(y, sums);
   }
 }
 

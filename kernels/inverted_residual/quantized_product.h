@@ -16,7 +16,8 @@ namespace mien::kernels {
 //
 // With 8 bits, `values` and `pairs` hold twice as many integers in as many bytes: `values` unsigned
 // ones, in blocks of 16 channels, which `to.in_blocks` counts, and `pairs` the quads of
-// quantize_to_int8.h. Then offsets[o] scales[o] x_scale is added as well.
+// quantize_to_int8.h. As `values` then contain x_shift in addition, x_shift sums[o] scales[o]
+// x_scale is subtracted.
 struct QuantizedProduct {
   ProductArgs to;
   const std::int16_t* values;  // [in_blocks] blocks of 8 channels of [pixels]
@@ -24,8 +25,9 @@ struct QuantizedProduct {
   float x_scale;
   const std::int16_t* pairs;
   const float* scales;
-  const float* offsets;  // nullptr with 16 bits
-  [[nodiscard]] bool is_int8() const { return offsets != nullptr; }
+  const float* sums;  // nullptr with 16 bits
+  float x_shift;
+  [[nodiscard]] bool is_int8() const { return sums != nullptr; }
 };
 
 // Integers of 16 bits per pixel of a block, of any number of bits.

@@ -99,7 +99,8 @@ class QuantizedStrips {
     product.x_scale = bound_ / max_;
     product.pairs += channel * product.to.in_blocks * kQuantizedPixel;
     product.scales += channel;
-    product.offsets += product.is_int8() ? channel : 0;
+    product.sums += product.is_int8() ? channel : 0;
+    product.x_shift = kInt8Shift;
     tier_.multiply(product);
   }
 
@@ -136,7 +137,7 @@ class QuantizedStrips {
     product.to.in_blocks = quantized_blocks(in_c, is_int8);
     product.pairs = is_int8 ? reinterpret_cast<const std::int16_t*>(weights.quads) : weights.pairs;
     product.scales = weights.scales;
-    product.offsets = is_int8 ? weights.offsets : nullptr;
+    product.sums = is_int8 ? weights.sums : nullptr;
     return product;
   }
 

@@ -1,4 +1,4 @@
-// The avx2 tier of quantize_to_int8, which all tiers with 8-bit products use.
+// The avx2 tier of quantize_to_int8, which all tiers of x86 with 8-bit products use.
 #include "kernels/common/avx2_quantized_panels.h"
 #include "kernels/families.h"
 
@@ -29,17 +29,16 @@ __m256i quad_at(const Outputs& outputs, std::int32_t k, Vec inverse_scale, __m25
 
 void quantize_to_int8(const QuantizeToInt8Args& a) {
   const std::int32_t reduction = (a.in_blocks + 1) / 2 * kPanel;
-  for_each_block(
-      a, reduction, a.quads, sizeof *a.quads,
-      [&](const Outputs& outputs, std::ptrdiff_t channel, __m256i* y) {
-        const Vec scales = scales_of(outputs), inverse_scale = inverse(scales);
-        __m256i sum = _mm256_setzero_si256();
-        write_groups<4>(
-            outputs, [&](std::int32_t k) { return quad_at(outputs, k, inverse_scale, sum); }, y);
-        const __m256i offsets = _mm256_mullo_epi32(sum, _mm256_set1_epi32(-a.input_shift));
-        _mm256_storeu_ps(a.scales + channel, scales);
-        _mm256_storeu_ps(a.offsets + channel, _mm256_cvtepi32_ps(offsets));
-      });
+  for_each_block(a, reduction, a.quads, sizeof *a.quads,
+                 [&](const Outputs& outputs, std::ptrdiff_t channel, __m256i* y) {
+                   const Vec scales = scales_of(outputs), inverse_scale = inverse(scales);
+                   __m256i sum = _mm256_setzero_si256();
+                   write_groups<4>(
+                       outputs,
+                       [&](std::int32_t k) { return quad_at(outputs, k, inverse_scale, sum); }, y);
+                   _mm256_storeu_ps(a.scales + channel, scales);
+                   _mm256_storeu_ps(a.sums + channel, _mm256_cvtepi32_ps(sum));
+                 });
 }
 
 }  // namespace mien::kernels::avx2

@@ -2,7 +2,7 @@
 //
 //   scales[o] = max over i of |w[o, i]| / 127
 //   w[o, i] = scales[o] q[o, i], to within half a scale
-//   offsets[o] = -input_shift times the sum over i of q[o, i]
+//   sums[o] = sum over i of q[o, i]
 //
 // `weights` are panels as in pointwise.h. `quads` are panels of as many outputs, in which inputs
 // that are multiplied together are adjacent. The reduction is padded with zeros to a multiple of
@@ -21,9 +21,8 @@ struct QuantizeToInt8Args {
   const std::uint16_t* weights;        // fp16
   std::int8_t* quads;                  // [out_blocks * 8 * in_blocks rounded up to even * 8]
   float* scales;                       // [out_blocks * 8]
-  float* offsets;                      // [out_blocks * 8]
+  float* sums;                         // [out_blocks * 8]
   std::int32_t in_blocks, out_blocks;  // of 8 channels; at most kQuantizedWeightsMaxInputs inputs
-  std::int32_t input_shift;            // 0..128
 };
 
 // Greatest magnitude of q.

@@ -27,7 +27,7 @@ void quantize_to_int8(const QuantizeToInt8Args& a) {
       sum += q;
     }
     a.scales[o] = static_cast<float>(scale);
-    a.offsets[o] = static_cast<float>(-a.input_shift * sum);
+    a.sums[o] = static_cast<float>(sum);
   }
 }
 

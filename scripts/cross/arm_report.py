@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/results/arm.md.  usage: arm_report.py WORK_DIR OUT_FILE   (see arm_report.sh)"""
 import re
+import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,8 @@ from pathlib import Path
 import inner_loops
 import predict
 from count_instructions import Machine
+
+from mien_convert.weight_file import OPS, RECORD_BYTES, sealed
 
 NETWORKS = [("basenet", "encoder"), ("hifinet", "encoder"), ("audionet", "encoder")]
 LOOPS = [  # tier, object, pattern of the function's name, what it is
@@ -17,6 +20,7 @@ LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neonfp16", "inverted_residual/neonfp16_product", r"tile<9, 2>", "pointwise, 9 pixels x 16 channels"),
     ("neonfp16", "inverted_residual/neonfp16", r"whole_outputs<.*Halves, 2, 1, ", "depthwise 3x3, stride 1, 2x2 outputs"),
     ("neonfp16", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
+    ("neondot", "inverted_residual/neondot_product", r"tile<.*HalfPanel, .*ToStrip, 9>", "pointwise, 9 pixels x 8 channels"),
 ]
 WITHOUT_FP16 = "cortex-a53"
 
@@ -35,8 +39,8 @@ def predictions(folder_of):
     rows = []
     for tier, name, pattern, what in LOOPS:
         loop = loop_of(folder_of(tier), name, pattern)
-        rows.append([tier, what, *("-" if tier == "neonfp16" and cpu == WITHOUT_FP16
-                                   else f"{predict.share_of_limit(loop, cpu, 'fmla', 'fmul'):.0%}" for cpu in predict.CPUS)])
+        rows.append([tier, what, *("-" if tier != "neon" and cpu == WITHOUT_FP16
+                                   else f"{predict.share_of_limit(loop, cpu, 'fmla', 'fmul', 'sdot'):.0%}" for cpu in predict.CPUS)])
     return rows
 
 
@@ -44,6 +48,17 @@ def largest_difference(rows, others):
     """The largest difference between the percentages of two tables of predictions, in points."""
     points = lambda cell: int(cell.removesuffix("%"))
     return max(abs(points(a) - points(b)) for row, other in zip(rows, others) for a, b in zip(row[2:], other[2:]) if a != "-")
+
+
+def write_with_bounds(source, target):
+    """Copies a weight file with input bounds for all pointwise layers; instructions do not depend on the value."""
+    file = bytearray(source.read_bytes())
+    networks, layers = struct.unpack_from("<II", file, 20)
+    for at in (RECORD_BYTES * (1 + networks + i) for i in range(layers)):
+        if struct.unpack_from("<H", file, at)[0] == OPS["pointwise"]:
+            struct.pack_into("<H", file, 10, 3)  # minor version
+            struct.pack_into("<f", file, at + 60, 6.0)
+    target.write_bytes(sealed(bytes(file)))
 
 
 def instructions(machines, work):
@@ -64,27 +79,32 @@ def main():
     gcc = lambda tier: work / "report-arm64/kernels/CMakeFiles" / f"mien_kernels_{tier}.dir"
     arm = (["qemu-aarch64", "-cpu", "max"], work / "run_neon")
     neon, neonfp16 = (Machine(tier, *arm) for tier in ("neon", "neonfp16"))
+    in_int8 = work / "int8"
+    in_int8.mkdir(exist_ok=True)
+    for model, _ in NETWORKS:
+        write_with_bounds(Path(f"models/{model}.mien"), in_int8 / f"{model}.mien")
+    neondot = Machine("neondot", *arm, in_int8)
     avx2 = Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2")
     header = ["tier", "inner loop", *predict.CPUS]
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
     text = f"""# Predicted speed on ARM
 
-For developers of kernels. No ARM machine was available: `scripts/cross/arm_report.sh` predicts loops and counts instructions of the
-published networks.
+For developers of kernels. No ARM machine was available: `scripts/cross/arm_report.sh` predicts loops and counts instructions.
 
 ## Inner loops
 
-Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the fused multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
+Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
 most 82 %, because clamps use the same units. llvm-mca 14 uses the model of Cortex-A57 for A76, and ignores cache misses. {WITHOUT_FP16} has no fp16
 arithmetic. Code of gcc; that of clang differs by at most {difference} points.
 
 {table(header, by_gcc)}
 ## Instructions per multiply-accumulate
 
-One run of a network, counted by qemu-user, and in parentheses relative to AVX2, whose vectors have twice the width of NEON's in fp32 and the same in half precision.
+One run of a network, counted by qemu-user; in parentheses relative to AVX2, whose vectors have twice the width of NEON's.
+`neondot` has [8 bits](int8.md) in pointwise layers.
 
-{table(["network", "neon", "neonfp16", "avx2"], instructions((neon, neonfp16, avx2), work))}"""
+{table(["network", "neon", "neonfp16", "neondot", "avx2"], instructions((neon, neonfp16, neondot, avx2), work))}"""
     out.write_text(text)
 
 

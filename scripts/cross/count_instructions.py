@@ -6,13 +6,13 @@ import subprocess
 class Machine:
     """A tier, and how to run its programs."""
 
-    def __init__(self, tier, emulator, program):
-        self.tier, self.emulator, self.program = tier, emulator, program
+    def __init__(self, tier, emulator, program, models="models"):
+        self.tier, self.emulator, self.program, self.models = tier, emulator, program, models
 
     def _counts(self, work, network, runs):
         output, (model, name) = work / "count.txt", network
         layers = subprocess.run([*self.emulator, "-plugin", f"{work / 'libcount.so'},output={output}", self.program,
-                                 f"models/{model}.mien", name, self.tier, str(runs)],
+                                 f"{self.models}/{model}.mien", name, self.tier, str(runs)],
                                 check=True, capture_output=True, text=True).stdout
         return int(output.read_text()), layers
 

@@ -2,6 +2,7 @@
 import re
 import subprocess
 
+MULTIPLIES = "fmla", "sdot"  # and adds
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 INSTRUCTION = re.compile(r"^\s*([0-9a-f]+):\s+([a-z][\w.]*)\s*(.*?)(?:\s*//.*)?$")
 BRANCH = re.compile(r"^(b\.?\w*|cbn?z|tbn?z)$")
@@ -34,12 +35,12 @@ def loops(body):
 
 
 def busiest_loop(body):
-    """The innermost loop with most fused multiply-adds."""
-    candidates = [loop for loop in loops(body) if count(loop, "fmla")]
+    """The innermost loop with most multiply-adds."""
+    candidates = [loop for loop in loops(body) if count(loop, *MULTIPLIES)]
     innermost = [a for a in candidates
                  if not any(b is not a and a[0][0] <= b[0][0] and b[-1][0] <= a[-1][0]
                             for b in candidates)]
-    return max(innermost, key=lambda loop: count(loop, "fmla"))
+    return max(innermost, key=lambda loop: count(loop, *MULTIPLIES))
 
 
 def count(loop, *mnemonics):

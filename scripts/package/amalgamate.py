@@ -31,9 +31,12 @@ TIERS_HERE = """\
 #endif
 #elif defined(__aarch64__)
 #define MIEN_HAVE_NEON
-// clang before 17 has these intrinsics only where -march says so.
+// clang before 17 has their intrinsics only where -march says so.
 #if defined(__ARM_FEATURE_FP16_VECTOR_ARITHMETIC) || !defined(__clang__) || __clang_major__ >= 17
 #define MIEN_HAVE_NEONFP16
+#if defined(__ARM_FEATURE_DOTPROD) || !defined(__clang__) || __clang_major__ >= 17
+#define MIEN_HAVE_NEONDOT
+#endif
 #endif
 #elif defined(__arm__) && defined(__ARM_FEATURE_FMA) && defined(__ARM_FP16_FORMAT_IEEE)
 #define MIEN_HAVE_NEON32  // -march=armv7-a -mfpu=neon-vfpv4 -mfp16-format=ieee
@@ -86,6 +89,7 @@ TIERS = [
     Tier("avx512vnni", AVX512 + ",avx512vnni", AVX512 + ",avx512vnni" + GCC_ONLY, pragmas=[INTEGER_TILE_PRAGMA]),
     Tier("neon", defines=["MIEN_TIER neon"], pragmas=[NEON_PRAGMA]),
     Tier("neonfp16", "fullfp16", "arch=armv8.2-a+fp16", ["MIEN_TIER neonfp16", "MIEN_HALF_TIER"], [NEON_PRAGMA]),
+    Tier("neondot", "fullfp16,dotprod", "arch=armv8.2-a+fp16+dotprod", ["MIEN_TIER neondot"], [NEON_PRAGMA]),
     Tier("neon32", defines=["MIEN_TIER neon32"], pragmas=[NEON_PRAGMA]),
     Tier("wasm", defines=["MIEN_TIER wasm"]),
     Tier("wasmint16"),

@@ -47,12 +47,12 @@ bool is_bounded(const RandomActivation& activation) {
   return activation.kind == Activation::kRelu6 || activation.kind == Activation::kClamp01;
 }
 
-void set_int8(float bound, const std::int8_t* quads, const float* offsets,
+void set_int8(float bound, const std::int8_t* quads, const float* sums,
               InvertedResidualArgs::Weights& weights) {
   if (bound > 0.0f) {
     weights.pairs = nullptr;
     weights.quads = quads;
-    weights.offsets = offsets;
+    weights.sums = sums;
     weights.input_bound = bound;
   }
 }
@@ -88,9 +88,9 @@ void set_weights(const Addresses& buffers, const Activations& activations, const
 Case make(RandomValues& random, Layers layers, const Activations& activations,
           const ResidualSlice* slice) {
   const Shape shape = layers.shape;
-  layers.is_quantized = random.arithmetic().is_quantized && has_quantized_weights(shape) &&
-                        is_bounded(activations.depthwise);
-  if (layers.is_quantized && random.arithmetic().has_int8) {
+  const bool may_quantize = has_quantized_weights(shape) && is_bounded(activations.depthwise);
+  layers.is_quantized = random.arithmetic().is_quantized && may_quantize;
+  if (may_quantize && random.arithmetic().has_int8) {
     layers.choose_int8(random, activations.depthwise);
   }
   const std::vector<float> residual =
@@ -117,9 +117,9 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
       reads(layers.bound1 > 0.0f ? layers.int8_1.scales : layers.quantized1.scales),
       reads(layers.bound3 > 0.0f ? layers.int8_3.scales : layers.quantized3.scales),
       reads(layers.int8_1.quads),
-      reads(layers.int8_1.offsets),
+      reads(layers.int8_1.sums),
       reads(layers.int8_3.quads),
-      reads(layers.int8_3.offsets)};
+      reads(layers.int8_3.sums)};
   const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
   const std::array<float, 2> bounds = {layers.bound1, layers.bound3};
   test.bind = [=](const Addresses& buffers) {

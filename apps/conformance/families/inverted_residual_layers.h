@@ -26,10 +26,14 @@ inline bool has_quantized_weights(const Shape& s) {
   return std::max(s.in_c, s.hidden_c) <= kernels::kQuantizedWeightsMaxInputs;
 }
 
+// Whether no sum of the block is too long for fp16.
+inline bool has_short_sums(const Shape& of, bool expands_in_int8) {
+  return kernels::has_short_half_sums(expands_in_int8 ? 0 : of.in_c, of.window.kernel_h,
+                                      of.window.kernel_w);
+}
+
 // Arithmetic of the block's inner sums: fp16 tiers use fp32 for blocks with long sums.
-inline Arithmetic block_arithmetic(const Arithmetic& tier, const Shape& of) {
-  const bool short_sums =
-      kernels::has_short_half_sums(of.in_c, of.window.kernel_h, of.window.kernel_w);
+inline Arithmetic block_arithmetic(const Arithmetic& tier, bool short_sums) {
   const bool is_fp16 = tier.unit > kUnit;
   return is_fp16 && !short_sums ? kSingleArithmetic : tier;
 }
@@ -72,7 +76,7 @@ struct Layers {
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
-        sums(block_arithmetic(random.arithmetic(), of)),
+        sums(block_arithmetic(random.arithmetic(), has_short_sums(of, false))),
         inner_sums(in_one_chunk(sums)),
         x(random.map(of.window.in_pixels(), of.in_c == 0 ? of.hidden_c : of.in_c)),
         w2(random.halves(padded(of.hidden_c) * of.window.kernel_h * of.window.kernel_w)),
@@ -96,10 +100,10 @@ struct Layers {
       return;
     }
     quantized3 = QuantizedWeights(w3, of.out_c, of.hidden_c, kernels::kQuantizedBandMax, false);
-    int8_3 = Int8Weights(w3, of.out_c, of.hidden_c, 0);
+    int8_3 = Int8Weights(w3, of.out_c, of.hidden_c);
     if (of.in_c > 0) {
       quantized1 = QuantizedWeights(w1, of.hidden_c, of.in_c, kernels::kQuantizedMapMax, true);
-      int8_1 = Int8Weights(w1, of.hidden_c, of.in_c, kernels::kInt8Shift);
+      int8_1 = Int8Weights(w1, of.hidden_c, of.in_c);
     }
   }
 
@@ -111,6 +115,14 @@ struct Layers {
     }
     if (random.coin()) {
       bound3 = share * static_cast<float>(band_max(depthwise));
+    }
+    if (random.is_half()) {
+      const bool short_sums = has_short_sums(shape, bound1 > 0.0f);
+      if (!short_sums) {  // in fp32, not in 8 bits
+        bound1 = bound3 = 0.0f;
+      }
+      sums = block_arithmetic(random.arithmetic(), short_sums);
+      inner_sums = in_one_chunk(sums);
     }
   }
 
@@ -155,7 +167,7 @@ struct Layers {
   [[nodiscard]] double weight_error(const QuantizedWeights& int16, const Int8Weights& int8,
                                     bool is_int8, int o) const {
     const std::vector<float>& scales = is_int8 ? int8.scales : int16.scales;
-    return is_quantized ? static_cast<double>(scales[as_size(o)]) * kHalfScale : 0.0;
+    return is_int8 || is_quantized ? static_cast<double>(scales[as_size(o)]) * kHalfScale : 0.0;
   }
 
   void make_positive() {

@@ -43,34 +43,32 @@ std::vector<Approx> expected_scales(const std::vector<float>& scales) {
 }
 
 // A kernel may decide every tie between two integers in another way.
-std::vector<Approx> expected_offsets(const Int8Weights& weights, int reduction, int shift) {
+std::vector<Approx> expected_sums(const Int8Weights& weights, int reduction) {
   std::vector<Approx> all;
-  const int outputs = static_cast<int>(weights.offsets.size());
+  const int outputs = static_cast<int>(weights.sums.size());
   for (int o = 0; o < outputs; ++o) {
     int ties = 0;
     for (int k = 0; k < reduction; ++k) {
       const double one = std::abs(weights.quotients[index_of(outputs, reduction, o, k)]);
       ties += std::abs(one - std::floor(one) - 0.5) <= one * 0x1p-20 ? 1 : 0;
     }
-    all.push_back(
-        {static_cast<double>(weights.offsets[as_size(o)]), static_cast<double>(ties) * shift});
+    all.push_back({static_cast<double>(weights.sums[as_size(o)]), static_cast<double>(ties)});
   }
   return all;
 }
 
-Case make(RandomValues& random, int inputs, int outputs, int shift) {
+Case make(RandomValues& random, int inputs, int outputs) {
   const std::vector<std::uint16_t> panels = random.panels(outputs, padded(inputs));
-  const Int8Weights weights(panels, outputs, inputs, shift);
+  const Int8Weights weights(panels, outputs, inputs);
   Case test;
-  test.shape = std::to_string(inputs) + " to " + std::to_string(outputs) + ", inputs shifted by " +
-               std::to_string(shift);
+  test.shape = std::to_string(inputs) + " to " + std::to_string(outputs);
   test.buffers = {reads(panels), writes(Element::kInt8, expected_quads(weights.quotients)),
                   writes(Element::kFloat, expected_scales(weights.scales)),
-                  writes(Element::kFloat, expected_offsets(weights, padded_to_16(inputs), shift))};
+                  writes(Element::kFloat, expected_sums(weights, padded_to_16(inputs)))};
   test.bind = [=](const Addresses& buffers) {
     return arguments(QuantizeToInt8Args{buffers.halves(0), buffers.int8s(1), buffers.floats(2),
-                                        buffers.floats(3), padded(inputs) / 8, padded(outputs) / 8,
-                                        shift});
+                                        buffers.floats(3), padded(inputs) / 8,
+                                        padded(outputs) / 8});
   };
   test.call = call<QuantizeToInt8Args>;
   return test;
@@ -78,8 +76,7 @@ Case make(RandomValues& random, int inputs, int outputs, int shift) {
 
 }  // namespace
 
-Int8Weights::Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs,
-                         int shift)
+Int8Weights::Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs)
     : quotients(as_size(padded(outputs) * padded_to_16(inputs))), quads(quotients.size()) {
   const int all = padded(outputs), given = padded(inputs), reduction = padded_to_16(inputs);
   for (int o = 0; o < all; ++o) {
@@ -93,19 +90,19 @@ Int8Weights::Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, 
       sum += q;
     }
     scales.push_back(static_cast<float>(scale));
-    offsets.push_back(static_cast<float>(-shift * sum));
+    sums.push_back(static_cast<float>(sum));
   }
 }
 
 template <>
 Case random_case<QuantizeToInt8Args>(RandomValues& random) {
   const int inputs = random.size(200), outputs = random.size(70);
-  return make(random, inputs, outputs, random.coin() ? kernels::kInt8Shift : 0);
+  return make(random, inputs, outputs);
 }
 
 template <>
 Case typical_case<QuantizeToInt8Args>(RandomValues& random) {
-  return make(random, 384, 96, 0);
+  return make(random, 384, 96);
 }
 
 }  // namespace mien::conformance

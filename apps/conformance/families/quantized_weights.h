@@ -27,13 +27,12 @@ struct QuantizedWeights {
 
 struct Int8Weights {
   Int8Weights() = default;
-  // `shift`: added to the integers that the weights are multiplied with.
-  Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs, int shift);
+  Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs);
 
   // w / scale before rounding, in the order of `quads`.
   std::vector<double> quotients;
   std::vector<std::uint8_t> quads;  // two's complement
-  std::vector<float> scales, offsets;
+  std::vector<float> scales, sums;
 };
 
 }  // namespace mien::conformance

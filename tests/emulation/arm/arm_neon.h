@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 inline float emulated_to_float(simde_float16 x) { return simde_float16_to_float32(x); }
 inline simde_float16 emulated_to_half(double x) {
@@ -175,4 +176,34 @@ inline float16x8_t vcvt_high_f16_f32(float16x4_t low, float32x4_t high) {
     to.at[i + from.kCount] = emulated_to_half(double{from.at[i]});
   }
   return to.vector();
+}
+// Rounds to the nearest integer, half to even. NaN becomes 0, other values saturate.
+template <class Integer>
+Integer emulated_integer(double x) {
+  using Limits = std::numeric_limits<Integer>;
+  if (std::isnan(x)) {
+    return 0;
+  }
+  const double nearest = std::nearbyint(x);
+  return static_cast<Integer>(
+      std::fmin(std::fmax(nearest, double{Limits::min()}), double{Limits::max()}));
+}
+inline uint16x8_t vcvtnq_u16_f16(float16x8_t x) {
+  const EmulatedHalves from(x);
+  EmulatedLanes<std::uint16_t, uint16x8_t> to;
+  for (int i = 0; i < to.kCount; ++i) {
+    to.at[i] = emulated_integer<std::uint16_t>(double{emulated_to_float(from.at[i])});
+  }
+  return to.vector();
+}
+inline int32x4_t vcvtnq_s32_f32(float32x4_t x) {
+  const EmulatedFloats from(x);
+  EmulatedLanes<std::int32_t, int32x4_t> to;
+  for (int i = 0; i < to.kCount; ++i) {
+    to.at[i] = emulated_integer<std::int32_t>(double{from.at[i]});
+  }
+  return to.vector();
+}
+inline float16x8_t vmulq_f16(float16x8_t a, float16x8_t b) {
+  return emulated_halves(a, b, a, [](double x, double w, double) { return x * w; });
 }
