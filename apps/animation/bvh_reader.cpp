@@ -158,7 +158,8 @@ class BvhReader {
     const std::string_view word = words_.next();
     if (!parse_number(word, count) || count < 0 || count > 6) {
       return words_.fail_here(
-          "invalid number of channels (got " + quoted(word) + ", expected 0 to 6)", fault_);
+          "CHANNELS: invalid number of channels (got " + quoted(word) + ", expected 0 to 6)",
+          fault_);
     }
     for (std::int64_t i = 0; i < count; ++i) {
       const std::string_view name = words_.next();
@@ -167,7 +168,7 @@ class BvhReader {
       const std::size_t axis =
           name.empty() ? 3 : std::string_view("xyz").find(formats::to_lower(name[0]));
       if ((!rotates && !moves) || axis > 2) {
-        return words_.fail_here("unknown channel " + quoted(name), fault_);
+        return words_.fail_here("CHANNELS: unknown channel " + quoted(name), fault_);
       }
       channels_.push_back({joint, axis, rotates});
     }
@@ -237,7 +238,9 @@ class BvhReader {
     std::int64_t count = 0;
     const std::string_view word = words_.next();
     if (!parse_number(word, count) || count < 1 || count > kMaxFrames) {
-      return words_.fail_here("invalid number of frames (got " + quoted(word) + ")", fault_);
+      return words_.fail_here("Frames: invalid number of frames (got " + quoted(word) +
+                                  ", expected 1 to " + std::to_string(kMaxFrames) + ")",
+                              fault_);
     }
     double step_s = 0.0;
     if (!expect("Frame") || !expect("Time:") || !number(step_s)) {

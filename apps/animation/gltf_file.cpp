@@ -162,12 +162,12 @@ bool GltfFile::numbers(const JsonValue& accessor, std::size_t width, GltfNumbers
           ? 0
           : std::uint64_t{numbers.elements_ - 1} * numbers.stride_ + element_bytes;
   if (numbers.stride_ < element_bytes || offset + needed > bytes.size()) {
-    return accessor.fail_here("the accessor exceeds its buffer", fault_);
+    return accessor.fail_here("accessor: exceeds its buffer", fault_);
   }
   numbers.bytes_ = bytes.substr(std::min(offset, bytes.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (!std::isfinite(numbers[i])) {
-      return accessor.fail_here("a value is not a finite number", fault_);
+      return accessor.fail_here("accessor: a value is not a finite number", fault_);
     }
   }
   return true;
@@ -189,7 +189,7 @@ bool GltfFile::view_bytes(const JsonValue& view, std::string_view& bytes) {
     return false;
   }
   if (std::uint64_t{offset} + size > bytes.size()) {
-    return view.fail_here("the accessor exceeds its buffer", fault_);
+    return view.fail_here("accessor: exceeds its buffer", fault_);
   }
   bytes = bytes.substr(offset, size);
   return true;

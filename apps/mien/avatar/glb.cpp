@@ -83,7 +83,7 @@ std::string glb_bytes(const Glb& glb) {
   constexpr std::size_t kPadding = 6;  // of both chunks
   if (animation::kGlbHeaders + json.size() + glb.data.size() + kPadding >
       std::numeric_limits<std::uint32_t>::max()) {
-    throw Failure(kExitOutput, "the animated avatar exceeds the 4 GiB of a .glb");
+    throw Failure(kExitOutput, "avatar: exceeds the 4 GiB of a .glb with the animation");
   }
   return animation::glb_file(std::move(json), glb.data);
 }
