@@ -11,7 +11,7 @@ namespace mien::audio {
 
 class Loudness {
  public:
-  // Approximate number of windows in which the level covers 1 - 1/e of the distance to its input.
+  // Approximate time constants of the level, in windows.
   static constexpr float kAttack = 4.0f;
   static constexpr float kRelease = 200.0f;
 

@@ -11,8 +11,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr float kPreEmphasis = 0.97f;
-constexpr double kLowestHz = 60.0;
-constexpr double kHighestHz = 7600.0;
+constexpr double kMinHz = 60.0;
+constexpr double kMaxHz = 7600.0;
 constexpr double kLifter = 22.0;
 
 double mel_of_hz(double hz) { return 2595.0 * std::log10(1.0 + hz / 700.0); }
@@ -44,8 +44,8 @@ void Mfcc::make_window() {
 }
 
 void Mfcc::make_mel_bands() {
-  const double low = mel_of_hz(kLowestHz);
-  const double step = (mel_of_hz(kHighestHz) - low) / (kBands + 1);
+  const double low = mel_of_hz(kMinHz);
+  const double step = (mel_of_hz(kMaxHz) - low) / (kBands + 1);
   for (std::size_t band = 0; band < kBands; ++band) {
     const auto edge = [&](std::size_t i) { return hz_of_mel(low + static_cast<double>(i) * step); };
     for (std::size_t bin = 0; bin < kBins; ++bin) {

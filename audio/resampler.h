@@ -1,9 +1,10 @@
 // Resamples audio of 8 to 192 kHz to 16 kHz with a polyphase windowed sinc (Crochiere, Rabiner
 // 1983, ch. 4; window: Kaiser 1974).
 //
-// The filter has 32 zero crossings of the lower rate on each side. Relative to that rate's Nyquist
-// frequency it is flat up to 0.8 and attenuates by at least 80 dB from 1.0 on. Outputs between two
-// phases of the table are interpolated linearly. Positions are integers, so that they never drift.
+// The filter is a sinc with 32 zero crossings on each side, at the lower of both rates. Relative to
+// that rate's Nyquist frequency it is flat up to 0.8 and attenuates by at least 80 dB from 1.0 on.
+// Outputs between two phases of the table are interpolated linearly. Positions are integers, so
+// that they never drift.
 //
 // Output m belongs to the time m / 16000 s after the first input, and is available `delay_seconds`
 // later.
@@ -21,13 +22,13 @@ namespace mien::audio {
 
 class Resampler {
  public:
-  static constexpr std::int32_t kLowestRate = 8000;
-  static constexpr std::int32_t kHighestRate = 192000;
+  static constexpr std::int32_t kMinRate = 8000;
+  static constexpr std::int32_t kMaxRate = 192000;
 
   // False if no tier of `cpu_mask` can run on this CPU.
   [[nodiscard]] bool init(std::uint32_t cpu_mask);
 
-  // Starts a stream; `input_rate` in kLowestRate..kHighestRate, Hz. If the rate changes, computes a
+  // Starts a stream; `input_rate` in kMinRate..kMaxRate, Hz. If the rate changes, computes a
   // new filter, which takes about a millisecond.
   void start(std::int32_t input_rate);
 
@@ -45,7 +46,7 @@ class Resampler {
   static constexpr std::int32_t kOutputRate = 16000;
   static constexpr std::int32_t kZeroCrossings = 32;
   static constexpr std::int32_t kPhases = 256;  // if the input rate is at most the output rate
-  static constexpr std::int32_t kMaxSteps = kHighestRate / kOutputRate;
+  static constexpr std::int32_t kMaxSteps = kMaxRate / kOutputRate;
   static constexpr std::size_t kMaxTaps = std::size_t{2} * kZeroCrossings * kMaxSteps;
   static constexpr std::size_t kTableSize = std::size_t{2} * kZeroCrossings * (kPhases + kMaxSteps);
 

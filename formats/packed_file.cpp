@@ -18,8 +18,8 @@ constexpr std::size_t kReservedAt = 12;
 constexpr std::size_t kUnpackedBytesAt = 24;
 
 constexpr std::size_t kSymbols = 256;
-constexpr std::uint32_t kSlots = 4096;      // slots of a table
-constexpr std::uint32_t kLowest = 0x10000;  // initial state of a coder
+constexpr std::uint32_t kSlots = 4096;        // slots of a table
+constexpr std::uint32_t kMinState = 0x10000;  // initial state of a coder
 constexpr std::size_t kMaxBlockBytes = 65536;
 constexpr std::size_t kMinPackedBlockBytes = 80;  // size field, minimal tables, and states
 
@@ -89,12 +89,12 @@ class Unpacker {
     return next == kSlots;
   }
 
-  // A state stays below 2^32, and between symbols in [kLowest, 2^32).
+  // A state stays below 2^32, and between symbols in [kMinState, 2^32).
   std::byte next(const Table& table, std::uint32_t& state) {
     const std::uint32_t slot = state % kSlots;
     const std::uint8_t symbol = table.symbol[slot];
     state = table.slots[symbol] * (state / kSlots) + slot - table.first[symbol];
-    if (state < kLowest) {
+    if (state < kMinState) {
       state = state << 16 | take<std::uint16_t>();
     }
     return std::byte{symbol};
@@ -109,7 +109,7 @@ class Unpacker {
     if (missing_) {
       return MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED;
     }
-    if (low < kLowest || high < kLowest) {
+    if (low < kMinState || high < kMinState) {
       return MIEN_ERROR_WEIGHTS_PACKED_STATE;
     }
     for (std::size_t i = 0; i < out.size(); i += 2) {
@@ -119,7 +119,7 @@ class Unpacker {
     if (missing_) {
       return MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED;
     }
-    return low == kLowest && high == kLowest ? MIEN_OK : MIEN_ERROR_WEIGHTS_PACKED_STATE;
+    return low == kMinState && high == kMinState ? MIEN_OK : MIEN_ERROR_WEIGHTS_PACKED_STATE;
   }
 
   std::span<const std::byte> left_;  // unread bytes

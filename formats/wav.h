@@ -67,13 +67,13 @@ inline constexpr std::uint8_t kWavStatusCount = 22;
 [[nodiscard]] const char* message(WavStatus status);
 
 inline constexpr std::uint32_t kMaxWavChannels = 8;
-inline constexpr std::uint32_t kLowestWavRate = 8000;     // frames per second
-inline constexpr std::uint32_t kHighestWavRate = 192000;  // frames per second
+inline constexpr std::uint32_t kMinWavRate = 8000;    // frames per second
+inline constexpr std::uint32_t kMaxWavRate = 192000;  // frames per second
 
 enum class WavCoding : std::uint8_t { kPcm, kFloat };
 
 struct WavFormat {
-  std::uint32_t sample_rate = 0;  // frames per second, kLowestWavRate..kHighestWavRate
+  std::uint32_t sample_rate = 0;  // frames per second, kMinWavRate..kMaxWavRate
   std::uint32_t channels = 0;     // 1..kMaxWavChannels
   std::uint32_t bits = 0;         // per stored sample; kPcm: 8, 16, 24, 32; kFloat: 32, 64
   WavCoding coding = WavCoding::kPcm;

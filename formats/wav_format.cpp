@@ -70,7 +70,7 @@ WavFault check_fields(Body body, const WavFormat& format) {
   if (format.channels < 1 || format.channels > kMaxWavChannels) {
     return {WavStatus::kBadChannels, kChannelsAt};
   }
-  if (format.sample_rate < kLowestWavRate || format.sample_rate > kHighestWavRate) {
+  if (format.sample_rate < kMinWavRate || format.sample_rate > kMaxWavRate) {
     return {WavStatus::kBadRate, kRateAt};
   }
   if (!bits_allowed(format.coding, format.bits)) {

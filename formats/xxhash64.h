@@ -8,7 +8,8 @@
 
 namespace mien::formats {
 
-// Hash of `bytes` with seed 0, with the bytes [hole, hole + 8) read as zero.
+// Hash of `bytes` with seed 0. The bytes [hole, hole + 8), where the file stores its checksum,
+// count as zero.
 [[nodiscard]] std::uint64_t xxhash64_with_hole(std::span<const std::byte> bytes, std::size_t hole);
 
 }  // namespace mien::formats

@@ -38,7 +38,7 @@ bool has_neon_dot() {
 }
 #endif
 
-std::uint32_t ask_cpu() {
+std::uint32_t query_cpu() {
   std::uint32_t mask = 0;
 #ifndef MIEN_TRIM_REF
   mask |= bit(Tier::kRef);
@@ -99,14 +99,14 @@ std::uint32_t detect_cpu() {
   // Cached, because every kernel lookup needs it and CPUID takes tens of microseconds in virtual
   // machines. Racing threads store the same value. Bit 30, which is not a tier, marks a valid
   // value.
-  constexpr std::uint32_t kAsked = 1u << 30;
-  static constinit std::atomic<std::uint32_t> answer = 0;
-  std::uint32_t mask = answer.load(std::memory_order_relaxed);
+  constexpr std::uint32_t kValid = 1u << 30;
+  static constinit std::atomic<std::uint32_t> cached = 0;
+  std::uint32_t mask = cached.load(std::memory_order_relaxed);
   if (mask == 0) {
-    mask = ask_cpu() | kAsked;
-    answer.store(mask, std::memory_order_relaxed);
+    mask = query_cpu() | kValid;
+    cached.store(mask, std::memory_order_relaxed);
   }
-  return mask & ~kAsked;
+  return mask & ~kValid;
 }
 
 }  // namespace mien::kernels

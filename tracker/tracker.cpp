@@ -14,24 +14,26 @@ constexpr std::size_t kVerified = 2;       // of these, by BaseNet
 constexpr std::int32_t kEagerFrames = 30;  // first frames without a face: no pause in detection
 constexpr int kAlignments = 2;             // alignments of a detection before it is verified
 
-// Steps without a face, in order: both shares of a coarse search, then some shares of a scan.
+// Steps without a face, in order: both chunks of a coarse search, then some chunks of a scan.
 enum Step : std::uint32_t { kBeginCoarse, kEndCoarse, kScan };
 
 // The amount of detection per frame.
 struct Pace {
   std::uint64_t steps;   // per two frames
-  std::uint32_t shares;  // of a scan, after each coarse search
+  std::uint32_t chunks;  // of a scan, after each coarse search
   bool begins_at_loss;   // on the frame that loses the face, else one frame later
 };
 constexpr Pace kPace = {8, 2, true};
-constexpr Pace kPaceLowest = {3, 1, false};  // frames are cheap, so their cost should vary little
+constexpr Pace kPaceOfMinLevel = {3, 1,
+                                  false};  // frames are cheap, so their cost should vary little
 
 // Rolls of detection besides 0, in radians; it finds faces within about 30 degrees of each.
-constexpr float kEighth = 0.78539816f;
-constexpr std::array<float, 7> kRolls = {2 * kEighth, -2 * kEighth, kEighth,    -kEighth,
-                                         3 * kEighth, -3 * kEighth, 4 * kEighth};
+constexpr float kEighthTurn = 0.78539816f;
+constexpr std::array<float, 7> kRolls = {2 * kEighthTurn, -2 * kEighthTurn, kEighthTurn,
+                                         -kEighthTurn,    3 * kEighthTurn,  -3 * kEighthTurn,
+                                         4 * kEighthTurn};
 
-Pace pace_at(std::int32_t level) { return level == kLowestLevel ? kPaceLowest : kPace; }
+Pace pace_at(std::int32_t level) { return level == kMinLevel ? kPaceOfMinLevel : kPace; }
 
 }  // namespace
 
@@ -194,7 +196,7 @@ void Tracker::search_step(Frame& frame) {
     return;
   }
   const std::uint32_t step = search.step;
-  search.step = step + 1 < kScan + pace_at(frame.level).shares ? step + 1 : kBeginCoarse;
+  search.step = step + 1 < kScan + pace_at(frame.level).chunks ? step + 1 : kBeginCoarse;
   if (step == kBeginCoarse) {
     begin_coarse(frame);
   } else if (step == kEndCoarse) {
@@ -219,7 +221,7 @@ void Tracker::begin_scan(Frame& frame, bool thorough, float roll) {
 bool Tracker::scan(Frame& frame) {
   const StageTimer::Scope timed(frame.timer, MIEN_STAGE_PROPOSAL);
   Search& search = state_.search;
-  search.is_scanning = proposal_.run_next_share(frame.view);
+  search.is_scanning = proposal_.run_next_chunk(frame.view);
   if (!search.is_scanning) {
     search.verified = 0;
     search.count = proposal_.found(
@@ -267,12 +269,12 @@ float Tracker::next_coarse_roll() const {
   if (i < kFirstPass) {
     return kRolls[i - 1];
   }
-  return kEighth / 2 + (i == kFirstPass + 1 ? 0.0f : kRolls[i - kFirstPass - 2]);
+  return kEighthTurn / 2 + (i == kFirstPass + 1 ? 0.0f : kRolls[i - kFirstPass - 2]);
 }
 
 float Tracker::lost_roll() const {
   const float roll = faces_.first().is_known() ? faces_.first().roll() : 0.0f;
-  return std::abs(roll) > kEighth / 2 ? roll : 0.0f;
+  return std::abs(roll) > kEighthTurn / 2 ? roll : 0.0f;
 }
 
 void Tracker::verify_next(Frame& frame) {

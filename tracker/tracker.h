@@ -52,7 +52,7 @@ class Tracker {
   // Maximum number of detections of a scan that BaseNet verifies.
   static constexpr std::size_t kMaxVerified = MIEN_MAX_FACES + 2;
 
-  // Without a face, every image runs some steps: shares of a scan of the whole image, and coarse
+  // Without a face, every image runs some steps: chunks of a scan of the whole image, and coarse
   // searches in between. Detections are verified before other steps.
   struct Search {
     bool is_scanning = false;  // a scan of the whole image is running
@@ -90,7 +90,7 @@ class Tracker {
   // Runs whole scans at all rolls on one frame, until a face is found.
   void search_all_rolls(Frame& frame);
   void begin_scan(Frame& frame, bool thorough, float roll);
-  // Runs the next share. Returns false after the last one.
+  // Runs the next chunk. Returns false after the last one.
   bool scan(Frame& frame);
   void begin_coarse(Frame& frame);
   void end_coarse(Frame& frame);

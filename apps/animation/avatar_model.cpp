@@ -12,8 +12,8 @@
 namespace mien::animation {
 namespace {
 
-constexpr float kMetres = 0.08f;  // half the width of the head
-constexpr float kStep = kMetres / 1024.0f, kTargetStep = kMetres / 512.0f;
+constexpr float kHalfHeadMetres = 0.08f;  // half the width of the head
+constexpr float kStep = kHalfHeadMetres / 1024.0f, kTargetStep = kHalfHeadMetres / 512.0f;
 constexpr std::array<Vector, 2> kEyes = {{{0.395f, 0.075f, 0.515f}, {-0.395f, 0.075f, 0.515f}}};
 
 struct Part {
@@ -230,7 +230,7 @@ AvatarModel avatar_model() {
   }
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t k = 0; k < 3; ++k) {
-      model.eye_centres[side][k] = kEyes[side][k] * kMetres;
+      model.eye_centres[side][k] = kEyes[side][k] * kHalfHeadMetres;
     }
   }
   read_targets(reader, model);

@@ -17,8 +17,8 @@
 // - offsets of the 52 targets in 1/512, in the same order; those of the right side minus the
 //   mirrored ones of the left side.
 //
-// A number of a grid lacks the sum of its neighbours on the left and below minus the one between
-// them.
+// Values on the grid of a part are stored as differences from a prediction: the left neighbour plus
+// the one below, minus the one below on the left.
 #pragma once
 
 #include <array>

@@ -86,8 +86,8 @@ bool read_cell(CsvTable& table, const CsvHeader& header, Column column,
   return true;
 }
 
-bool read_share(CsvTable& table, const CsvHeader& header, Column column, double& value,
-                Fault& fault) {
+bool read_fraction(CsvTable& table, const CsvHeader& header, Column column, double& value,
+                   Fault& fault) {
   std::optional<double> number;
   if (!read_cell(table, header, column, number, fault)) {
     return false;

@@ -46,8 +46,8 @@ class CsvHeader {
                              std::optional<double>& value, Fault& fault);
 
 // The same for numbers in 0..1; kNoNumber for an empty cell or a missing column.
-[[nodiscard]] bool read_share(CsvTable& table, const CsvHeader& header, Column column,
-                              double& value, Fault& fault);
+[[nodiscard]] bool read_fraction(CsvTable& table, const CsvHeader& header, Column column,
+                                 double& value, Fault& fault);
 
 // The same for files of other programs, which may exceed 0..1: clamps and counts such values.
 [[nodiscard]] bool read_clamped(CsvTable& table, const CsvHeader& header, Column column,

@@ -182,8 +182,9 @@ class CurvesReader {
     return read_time(frame) && read_integer("frame", frame.number) &&
            read_integer("face_id", frame.face_id) && read_integer("lod", frame.lod) &&
            read_state(frame.state) &&
-           read_share(table_, header_, header_.find("face_prob"), frame.face_probability, fault_) &&
-           read_share(table_, header_, header_.find("vad"), frame.voice_activity, fault_) &&
+           read_fraction(table_, header_, header_.find("face_prob"), frame.face_probability,
+                         fault_) &&
+           read_fraction(table_, header_, header_.find("vad"), frame.voice_activity, fault_) &&
            read_all(kBoxNames, frame.box) && read_all(kPositionNames, frame.position_m) &&
            read_head(frame) && read_weights(frame);
   }
@@ -275,7 +276,7 @@ class CurvesReader {
   bool read_weights(Frame& frame) {
     std::vector<double> values(columns_.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!read_share(table_, header_, columns_[i], values[i], fault_)) {
+      if (!read_fraction(table_, header_, columns_[i], values[i], fault_)) {
         return false;
       }
     }

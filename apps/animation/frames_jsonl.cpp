@@ -54,8 +54,8 @@ class ObjectReader {
   bool read(Frame& frame) {
     return read_time(frame.time_ns) && read_integer("frame", frame.number) &&
            read_integer("face_id", frame.face_id) && read_integer("lod", frame.lod) &&
-           read_state(frame.state) && read_share("face_prob", frame.face_probability) &&
-           read_share("vad", frame.voice_activity) && read_array("box", frame.box) &&
+           read_state(frame.state) && read_fraction("face_prob", frame.face_probability) &&
+           read_fraction("vad", frame.voice_activity) && read_array("box", frame.box) &&
            read_angles(object_.find("head"), frame.head) &&
            read_array("position_m", frame.position_m) && read_eyes(frame) &&
            read_weights("controls", formats::kArkitNames, frame.controls) &&
@@ -80,12 +80,12 @@ class ObjectReader {
            found->fail_here(std::string(key) + ": expected an integer", fault_);
   }
 
-  bool read_share(std::string_view key, double& value) {
+  bool read_fraction(std::string_view key, double& value) {
     const std::optional<JsonValue> found = object_.find(key);
-    return !found || share(*found, key, value);
+    return !found || parse_fraction(*found, key, value);
   }
 
-  bool share(const JsonValue& found, std::string_view key, double& value) {
+  bool parse_fraction(const JsonValue& found, std::string_view key, double& value) {
     if (!found.is(Kind::kNumber) || found.number() < 0.0 || found.number() > 1.0) {
       return found.fail_here(std::string(key) + ": expected a number in 0..1", fault_);
     }
@@ -183,7 +183,7 @@ class ObjectReader {
       if (which == N) {
         return (*at).fail_here(std::string(key) + ": unknown name " + quoted(name), fault_);
       }
-      if (!share(*at, name, values[which])) {
+      if (!parse_fraction(*at, name, values[which])) {
         return false;
       }
     }
@@ -205,11 +205,11 @@ class ObjectReader {
     if (!found) {
       return true;
     }
-    const std::string said = found->text();
-    if (said.size() != 1 || formats::kMouthShapes.find(said[0]) == formats::kMouthShapes.npos) {
+    const std::string text = found->text();
+    if (text.size() != 1 || formats::kMouthShapes.find(text[0]) == formats::kMouthShapes.npos) {
       return found->fail_here("mouth_shape: expected A to H or X", fault_);
     }
-    shape = said[0];
+    shape = text[0];
     return true;
   }
 

@@ -92,7 +92,7 @@ class GltfReader {
     const std::size_t keys = track.times.size();
     if (keys == 0 || track.values.size() != keys * track.in_key()) {
       return file_.item("accessors", *output)
-          .fail_here("the number of values does not match the number of times", fault_);
+          .fail_here("output: the number of values does not match the number of times", fault_);
     }
     bool ascending = true;
     for (std::size_t i = 1; i < keys; ++i) {
@@ -111,7 +111,7 @@ class GltfReader {
     const std::optional<JsonValue> channels = list(animation, "channels");
     const std::optional<JsonValue> listed = list(animation, "samplers");
     if (!channels || !listed) {
-      return animation.fail_here("the animation has no channels or samplers", fault_);
+      return animation.fail_here("animations: no channels or samplers", fault_);
     }
     std::vector<JsonValue> samplers;
     for (const JsonValue sampler : listed->items()) {
@@ -123,7 +123,7 @@ class GltfReader {
       std::int64_t i = -1;
       if (!index || !index->integer(i) || i < 0 ||
           static_cast<std::uint64_t>(i) >= samplers.size() || !target) {
-        return channel.fail_here("the channel has no sampler or target", fault_);
+        return channel.fail_here("channels: no sampler or target", fault_);
       }
       if (target->find("node") && !read_channel(*target, samplers[static_cast<std::size_t>(i)])) {
         return false;
@@ -271,7 +271,7 @@ class GltfReader {
 
   // Finds the keys around a time. In files of this program, data without a key are absent.
   [[nodiscard]] bool find_keys(const Track& track, float time, std::size_t& before,
-                               std::size_t& after, double& share) const {
+                               std::size_t& after, double& fraction) const {
     if (track.width == 0) {
       return false;
     }
@@ -281,20 +281,20 @@ class GltfReader {
     if (exact || after == 0 || after == keys) {
       after = std::min(after, keys - 1);
       before = after;
-      share = 0.0;
+      fraction = 0.0;
       return exact || !ours_;
     }
     before = after - 1;
-    share = track.step ? 0.0
-                       : static_cast<double>(time - track.times[before]) /
-                             static_cast<double>(track.times[after] - track.times[before]);
+    fraction = track.step ? 0.0
+                          : static_cast<double>(time - track.times[before]) /
+                                static_cast<double>(track.times[after] - track.times[before]);
     return !ours_;
   }
 
   [[nodiscard]] std::optional<Angles> turn_at(const Track& track, float time) const {
     std::size_t before = 0, after = 0;
-    double share = 0.0;
-    if (!find_keys(track, time, before, after, share)) {
+    double fraction = 0.0;
+    if (!find_keys(track, time, before, after, fraction)) {
       return std::nullopt;
     }
     const auto at = [&track](std::size_t i) {
@@ -303,20 +303,20 @@ class GltfReader {
       const bool none = turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0 && turn[3] == 0.0;
       return none ? Angles() : angles(turn);
     };
-    return between(at(before), at(after), share);
+    return between(at(before), at(after), fraction);
   }
 
   [[nodiscard]] std::optional<std::array<double, 3>> place_at(const Track& track,
                                                               float time) const {
     std::size_t before = 0, after = 0;
-    double share = 0.0;
-    if (!find_keys(track, time, before, after, share)) {
+    double fraction = 0.0;
+    if (!find_keys(track, time, before, after, fraction)) {
       return std::nullopt;
     }
     std::array<double, 3> place;
     for (std::size_t i = 0; i < 3; ++i) {
       const double from = track.value(before, i);
-      place[i] = from + share * (track.value(after, i) - from);
+      place[i] = from + fraction * (track.value(after, i) - from);
     }
     return place;
   }

@@ -178,18 +178,18 @@ class LiveLinkReader {
   }
 
   bool read_timecode(std::int64_t& time_ns) {
-    const std::string said = "Timecode: " + quoted(table_.cell(*time_));
+    const std::string cell = "Timecode: " + quoted(table_.cell(*time_));
     Timecode timecode;
     if (!parse_timecode(table_.cell(*time_), timecode)) {
-      return table_.fail_at(*time_, said + " is not HH:MM:SS:FF.mmm", fault_);
+      return table_.fail_at(*time_, cell + " is not HH:MM:SS:FF.mmm", fault_);
     }
     if (timecode.second < 0) {
-      return table_.fail_at(*time_, said + " is not a time of day", fault_);
+      return table_.fail_at(*time_, cell + " is not a time of day", fault_);
     }
     if (timecode.frame >= fps_) {
       return table_.fail_at(
           *time_,
-          said + " has more frames than a second of " + shortest(fps_) + " (--from-llf-fps)",
+          cell + " has more frames than a second of " + shortest(fps_) + " (--from-llf-fps)",
           fault_);
     }
     time_ns = timecode.second * kSecond_ns + std::llround(timecode.frame / fps_ * 1e9);

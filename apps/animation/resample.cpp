@@ -10,39 +10,39 @@
 namespace mien::animation {
 namespace {
 
-double mixed(double a, double b, double share) {
-  return formats::driven(a) && formats::driven(b) ? a + share * (b - a) : a;
+double mixed(double a, double b, double fraction) {
+  return formats::driven(a) && formats::driven(b) ? a + fraction * (b - a) : a;
 }
 
 template <class Values>
-void mix(Values& values, const Values& next, double share) {
+void mix(Values& values, const Values& next, double fraction) {
   for (std::size_t i = 0; i < values.size() && i < next.size(); ++i) {
-    values[i] = mixed(values[i], next[i], share);
+    values[i] = mixed(values[i], next[i], fraction);
   }
 }
 
-Frame between_frames(const Frame& before, const Frame& after, double share) {
+Frame between_frames(const Frame& before, const Frame& after, double fraction) {
   Frame frame = before;
-  if (share <= 0.0 || before.holds()) {
+  if (fraction <= 0.0 || before.holds()) {
     return frame;
   }
-  frame.face_probability = mixed(before.face_probability, after.face_probability, share);
-  frame.voice_activity = mixed(before.voice_activity, after.voice_activity, share);
-  mix(frame.controls, after.controls, share);
-  mix(frame.facs, after.facs, share);
-  mix(frame.visemes, after.visemes, share);
+  frame.face_probability = mixed(before.face_probability, after.face_probability, fraction);
+  frame.voice_activity = mixed(before.voice_activity, after.voice_activity, fraction);
+  mix(frame.controls, after.controls, fraction);
+  mix(frame.facs, after.facs, fraction);
+  mix(frame.visemes, after.visemes, fraction);
   if (before.box && after.box) {
-    mix(*frame.box, *after.box, share);
+    mix(*frame.box, *after.box, fraction);
   }
   if (before.position_m && after.position_m) {
-    mix(*frame.position_m, *after.position_m, share);
+    mix(*frame.position_m, *after.position_m, fraction);
   }
   if (before.head && after.head) {
-    frame.head = between(*before.head, *after.head, share);
+    frame.head = between(*before.head, *after.head, fraction);
   }
   if (before.eyes && after.eyes) {
     for (std::size_t i = 0; i < 2; ++i) {
-      (*frame.eyes)[i] = between((*before.eyes)[i], (*after.eyes)[i], share);
+      (*frame.eyes)[i] = between((*before.eyes)[i], (*after.eyes)[i], fraction);
     }
   }
   return frame;

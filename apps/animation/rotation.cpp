@@ -47,9 +47,9 @@ Angles angles(const Quaternion& q) {
   return {std::asin(-r12), std::atan2(r02, r22), std::atan2(r10, r11)};
 }
 
-Angles between(const Angles& a, const Angles& b, double share) {
-  if (share <= 0.0 || share >= 1.0) {
-    return share <= 0.0 ? a : b;
+Angles between(const Angles& a, const Angles& b, double fraction) {
+  if (fraction <= 0.0 || fraction >= 1.0) {
+    return fraction <= 0.0 ? a : b;
   }
   const Quaternion from = quaternion(a);
   Quaternion to = quaternion(b);
@@ -63,8 +63,9 @@ Angles between(const Angles& a, const Angles& b, double share) {
   const double angle = std::acos(std::min(1.0, cosine));
   constexpr double kTooSmallToDivideBy = 1e-9;
   const bool tiny = angle < kTooSmallToDivideBy;
-  const double of_from = tiny ? 1.0 - share : std::sin((1.0 - share) * angle) / std::sin(angle);
-  const double of_to = tiny ? share : std::sin(share * angle) / std::sin(angle);
+  const double of_from =
+      tiny ? 1.0 - fraction : std::sin((1.0 - fraction) * angle) / std::sin(angle);
+  const double of_to = tiny ? fraction : std::sin(fraction * angle) / std::sin(angle);
   Quaternion mixed;
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     mixed[i] = of_from * from[i] + of_to * to[i];

@@ -19,8 +19,8 @@ using Quaternion = std::array<double, 4>;  // x, y, z, w; unit length
 // First b, then a.
 [[nodiscard]] Quaternion product(const Quaternion& a, const Quaternion& b);
 
-// Interpolates from a to b along the shorter arc; share 0..1.
-[[nodiscard]] Angles between(const Angles& a, const Angles& b, double share);
+// Interpolates from a to b along the shorter arc; fraction 0..1.
+[[nodiscard]] Angles between(const Angles& a, const Angles& b, double fraction);
 
 // Rotations of the left and right eye from the controls; nothing unless one of the eight is
 // supported. 1 is 0.485 rad, as in a Live Link Face capture: eyeLookDown 0.39 with an eye pitch of

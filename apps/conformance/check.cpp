@@ -108,7 +108,7 @@ double element(Element kind, const std::vector<std::byte>& bytes, std::size_t i)
 }
 
 // 0 for equal infinities; infinity for NaN.
-double share_of_bound(double got, double expected, double bound) {
+double relative_to_bound(double got, double expected, double bound) {
   if (got == expected) {
     return 0.0;
   }
@@ -134,7 +134,7 @@ void compare(const Case& test, const Contents& results, Finding& finding) {
     for (std::size_t i = 0; i < buffer.expected.size(); ++i) {
       const double got = element(buffer.element, results[b], i);
       const Approx& expected = buffer.expected[i];
-      const double relative_error = share_of_bound(got, expected.value, expected.error);
+      const double relative_error = relative_to_bound(got, expected.value, expected.error);
       if (!(relative_error <= 1.0) && finding.fault == Fault::kNone) {
         finding.fault = Fault::kWrongResult;
         finding.text = difference(b, i, got, expected.value, expected.error);
@@ -154,7 +154,7 @@ void compare_kernels(const Case& test, const Contents& results, const Contents& 
       const double got = element(buffer.element, results[b], i);
       const double expected = element(buffer.element, reference[b], i);
       const double bound = 2.0 * buffer.expected[i].error;
-      if (!(share_of_bound(got, expected, bound) <= 1.0)) {
+      if (!(relative_to_bound(got, expected, bound) <= 1.0)) {
         finding.fault = Fault::kDiffersFromRef;
         finding.text = difference(b, i, got, expected, bound);
         return;

@@ -58,9 +58,9 @@ Matrix matrix(const animation::Angles& angles) {
 // to the left of the image, z towards the viewer. One of the two is left-handed. Its solver knows
 // proper rotations only, so its result has an inverted depth, which receivers expect.
 struct Head {
-  Matrix rotation;      // ours, head to camera
-  Vector place;         // ours, metres
-  Matrix raw_rotation;  // theirs
+  Matrix rotation;      // head to mien's camera space
+  Vector place;         // of the head in it, metres
+  Matrix raw_rotation;  // of the model in OpenSeeFace's camera
 
   explicit Head(const animation::Frame& frame)
       : rotation(matrix(frame.head.value_or(animation::Angles()))),
@@ -151,7 +151,7 @@ Vector raw_euler(const Matrix& m) {
 // height and width of each corner of the mouth, then the mouth.
 std::array<double, 14> features(const animation::Frame& frame) {
   const auto value = [&](std::size_t which) { return formats::or_zero(frame.controls[which]); };
-  const auto signed_share = [](double x) { return std::clamp(x, -1.0, 1.0); };
+  const auto clamp_to_1 = [](double x) { return std::clamp(x, -1.0, 1.0); };
   struct Side {
     std::size_t blink, wide, brow_down, brow_outer, smile, frown, stretch;
   };
@@ -165,15 +165,15 @@ std::array<double, 14> features(const animation::Frame& frame) {
                       formats::control("mouthStretchRight")};
   const double inner = value(formats::control("browInnerUp")),
                pucker = value(formats::control("mouthPucker"));
-  const auto eye = [&](const Side& s) { return signed_share(value(s.wide) - value(s.blink)); };
-  const auto steep = [&](const Side& s) { return signed_share(value(s.brow_down) - inner); };
+  const auto eye = [&](const Side& s) { return clamp_to_1(value(s.wide) - value(s.blink)); };
+  const auto steep = [&](const Side& s) { return clamp_to_1(value(s.brow_down) - inner); };
   const auto height = [&](const Side& s) {
-    return signed_share((inner + value(s.brow_outer)) / 2 - value(s.brow_down));
+    return clamp_to_1((inner + value(s.brow_outer)) / 2 - value(s.brow_down));
   };
-  const auto quirk = [&](const Side& s) { return signed_share(value(s.brow_outer) - inner); };
-  const auto corner = [&](const Side& s) { return signed_share(value(s.smile) - value(s.frown)); };
+  const auto quirk = [&](const Side& s) { return clamp_to_1(value(s.brow_outer) - inner); };
+  const auto corner = [&](const Side& s) { return clamp_to_1(value(s.smile) - value(s.frown)); };
   const auto out = [&](const Side& s) {
-    return signed_share(std::max(value(s.smile), value(s.stretch)) - pucker);
+    return clamp_to_1(std::max(value(s.smile), value(s.stretch)) - pucker);
   };
   const double open = std::clamp(
       value(formats::control("jawOpen")) - value(formats::control("mouthClose")), 0.0, 1.0);

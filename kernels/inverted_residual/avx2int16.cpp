@@ -75,7 +75,7 @@ struct TierInt16 {
     constexpr int kAtOnce = 4;  // independent, because each maximum waits for the previous one
     Vec largest[kAtOnce];
     for (Vec& one : largest) {
-      one = _mm256_set1_ps(kSmallestLargest);
+      one = _mm256_set1_ps(kMinMagnitude);
     }
     const auto take = [](Vec& one, Vec values) { one = _mm256_max_ps(one, magnitude(values)); };
     for (; elems >= kLanes * kAtOnce; elems -= kLanes * kAtOnce, x += kLanes * kAtOnce) {
@@ -89,7 +89,7 @@ struct TierInt16 {
     for (int k = 1; k < kAtOnce; ++k) {
       take(largest[0], largest[k]);
     }
-    float lanes[kLanes], all = kSmallestLargest;
+    float lanes[kLanes], all = kMinMagnitude;
     _mm256_storeu_ps(lanes, largest[0]);
     for (const float one : lanes) {
       all = std::max(all, one);

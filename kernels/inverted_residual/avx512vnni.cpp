@@ -52,7 +52,7 @@ struct TierVnni {
     constexpr int kAtOnce = 4;  // independent, because each maximum waits for the previous one
     Vec largest[kAtOnce];
     for (Vec& one : largest) {
-      one = _mm512_set1_ps(kSmallestLargest);
+      one = _mm512_set1_ps(kMinMagnitude);
     }
     const auto take = [&](Vec& one, Vec values) {
       one = _mm512_max_ps(one, _mm512_abs_ps(values));

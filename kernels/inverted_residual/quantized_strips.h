@@ -2,7 +2,7 @@
 // integers: of 16 bits, the map scaled by its largest magnitude, the band by the bound of its
 // clamp; of 8 bits, both scaled by the layer's input bound. A tier supplies
 //   load(x, y)                            copies 8 floats from x to y
-//   largest_of(x, elems)                  largest magnitude, at least kSmallestLargest
+//   largest_of(x, elems)                  largest magnitude, at least kMinMagnitude
 //   quantize(x, elems, inverse_scale, y)  converts floats to integers of 16 bits
 //   quantize_to_int8(x, pixels, inverse_scale, y)
 //                                         writes integers plus kInt8Shift to half of each pixel
@@ -20,7 +20,7 @@ namespace mien::kernels {
 namespace {
 
 // Maps of far smaller values become 0.
-inline constexpr float kSmallestLargest = 0x1p-64f;
+inline constexpr float kMinMagnitude = 0x1p-64f;
 
 // A pixel of the band, 8 integers of 16 bits or 16 of 8 bits, occupies the memory of 4 floats.
 inline constexpr std::ptrdiff_t kQuantizedBand = 4;

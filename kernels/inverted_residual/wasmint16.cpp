@@ -137,7 +137,7 @@ struct Tier16 {
   }
 
   static float largest_of(const float* x, std::ptrdiff_t elems) {
-    Vec largest[2] = {splat(kSmallestLargest), splat(kSmallestLargest)};
+    Vec largest[2] = {splat(kMinMagnitude), splat(kMinMagnitude)};
     for (; elems > 0; elems -= kStripBlock, x += kStripBlock) {
       for (int k = 0; k < 2; ++k) {
         largest[k] = max(largest[k], wasm_f32x4_abs(wasm::load(x + k * kLanes)));

@@ -11,8 +11,8 @@ namespace mien::kernels {
 
 struct PowerSpectrumArgs {
   static constexpr std::string_view kFamily = "power_spectrum";
-  static constexpr std::int32_t kSmallest = 128;
-  static constexpr std::int32_t kLargest = 1024;
+  static constexpr std::int32_t kMinSize = 128;
+  static constexpr std::int32_t kMaxSize = 1024;
   const float* x;
   const float* twiddles;
   float* y;

@@ -123,7 +123,7 @@ class RealTransform {
 
   void transform() {
     const std::int32_t count = half_ / Simd::kLanes;
-    Complex rows[PowerSpectrumArgs::kLargest / 2 / Simd::kLanes];
+    Complex rows[PowerSpectrumArgs::kMaxSize / 2 / Simd::kLanes];
     for (std::int32_t r = 0; r < count; ++r) {
       rows[reversed_bits(r, count)] = deinterleaved(a_.x + std::ptrdiff_t{2} * Simd::kLanes * r);
     }
@@ -148,8 +148,8 @@ class RealTransform {
   }
 
   // The transform of z: z_0 .. z_(half-1) and z_half = z_0.
-  alignas(64) float re_[PowerSpectrumArgs::kLargest / 2 + Simd::kLanes] = {};
-  alignas(64) float im_[PowerSpectrumArgs::kLargest / 2 + Simd::kLanes] = {};
+  alignas(64) float re_[PowerSpectrumArgs::kMaxSize / 2 + Simd::kLanes] = {};
+  alignas(64) float im_[PowerSpectrumArgs::kMaxSize / 2 + Simd::kLanes] = {};
   const PowerSpectrumArgs& a_;
   const std::int32_t half_;
 };

@@ -82,9 +82,9 @@ TEST_F(ProgramRun, MatchesPyTorch) {
       continue;  // not on this CPU
     }
     ASSERT_EQ(done.code, 0) << done.errors;
-    const Array answer = load("y.npy");
-    EXPECT_EQ(answer.shape, (Shape{1, 256}));
-    expect_near(answer.values, golden_floats("encoder_output"));
+    const Array output = load("y.npy");
+    EXPECT_EQ(output.shape, (Shape{1, 256}));
+    expect_near(output.values, golden_floats("encoder_output"));
   }
 }
 

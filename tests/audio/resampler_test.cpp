@@ -66,8 +66,8 @@ double largest(const std::vector<float>& values) {
 TEST(Resampler, PassesTonesUnchangedAndInTime) {
   for (const std::int32_t rate : kRates) {
     const double half = std::min<double>(rate, kOutputRate) / 2;
-    for (const double share : {0.02, 0.1, 0.35, 0.6, 0.8}) {
-      const double hz = share * half;
+    for (const double fraction : {0.02, 0.1, 0.35, 0.6, 0.8}) {
+      const double hz = fraction * half;
       const std::vector<float> got =
           resampled(tone(hz, rate, static_cast<std::size_t>(rate / 4)), rate);
       ASSERT_GT(got.size(), 3800u) << rate;

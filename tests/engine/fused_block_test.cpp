@@ -64,7 +64,7 @@ std::vector<std::uint32_t> fusing_tiers() {
   return masks;
 }
 
-TEST(FusedBlocks, PublishedNetworksAnswerTheSame) {
+TEST(FusedBlocks, PublishedNetworksGiveTheSameOutputs) {
   for (const auto& entry : std::filesystem::directory_iterator(MIEN_SOURCE_DIR "/models")) {
     if (entry.path().extension() != ".mien") {
       continue;

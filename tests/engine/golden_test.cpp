@@ -60,19 +60,19 @@ TEST_P(Golden, TemporalNetworkStepByStepAndAgainAfterReset) {
   const std::vector<float> inputs = golden("temporal_input"), wanted = golden("temporal_output");
   std::vector<float> first_round;
   for (int round = 0; round < 2; ++round) {
-    std::vector<float> answers;
+    std::vector<float> outputs;
     for (std::size_t step = 0; step < inputs.size() / 12; ++step) {
       std::copy_n(inputs.begin() + static_cast<std::ptrdiff_t>(12 * step), 12,
                   mini.session->input().begin());
       mini.session->run();
       const auto output = mini.session->output(0);
-      answers.insert(answers.end(), output.begin(), output.begin() + 10);
+      outputs.insert(outputs.end(), output.begin(), output.begin() + 10);
     }
-    expect_close(answers, wanted, GetParam());
+    expect_close(outputs, wanted, GetParam());
     if (round == 0) {
-      first_round = answers;
+      first_round = outputs;
     } else {
-      EXPECT_EQ(answers, first_round);  // bit for bit
+      EXPECT_EQ(outputs, first_round);  // bit for bit
     }
     mini.session->reset();
   }

@@ -41,17 +41,17 @@ class Decoder {
   TwinNetwork twin;
 };
 
-std::vector<float> answer(Session& session, const Map& input) {
+std::vector<float> run(Session& session, const Map& input) {
   set_input(session, input);
   session.run();
   const auto output = session.output(0);
   return {output.begin(), output.end()};
 }
 
-Frames answers(Session& session, const std::vector<Map>& inputs) {
+Frames run_all(Session& session, const std::vector<Map>& inputs) {
   Frames frames;
   for (const Map& input : inputs) {
-    frames.push_back(answer(session, input));
+    frames.push_back(run(session, input));
   }
   return frames;
 }
@@ -86,7 +86,7 @@ TEST(Streams, FrameByFrameIsTheConvolutionOfTheWholeStream) {
     Map frame(1, 1, kInputs);
     std::copy_n(whole.values.begin() + static_cast<std::ptrdiff_t>(t * kInputs), kInputs,
                 frame.values.begin());
-    const std::vector<float> got = answer(*engine.session, frame);
+    const std::vector<float> got = run(*engine.session, frame);
     for (std::size_t c = 0; c < kOutputs;
          ++c) {  // multiples of 1/256, whose sums are exact in any order
       EXPECT_EQ(static_cast<double>(got[c]), want.at(t, 0, c)) << "frame " << t;
@@ -107,14 +107,14 @@ TEST(Streams, ResetMakesASessionFreshBitForBit) {
     OwnedSession used(finished(decoder.writer), "net", {}, tier);
     OwnedSession fresh(finished(decoder.writer), "net", {}, tier);
     const std::vector<Map> inputs = decoder.random_inputs();
-    const Frames first = answers(*used.session, decoder.random_inputs());
-    EXPECT_NE(answers(*used.session, inputs), answers(*fresh.session, inputs)) << "no state at all";
+    const Frames first = run_all(*used.session, decoder.random_inputs());
+    EXPECT_NE(run_all(*used.session, inputs), run_all(*fresh.session, inputs)) << "no state at all";
     used.session->reset();
     fresh.session->reset();
     OwnedSession newest(finished(decoder.writer), "net", {}, tier);
-    const Frames want = answers(*newest.session, inputs);
-    EXPECT_EQ(answers(*used.session, inputs), want);
-    EXPECT_EQ(answers(*fresh.session, inputs), want);
+    const Frames want = run_all(*newest.session, inputs);
+    EXPECT_EQ(run_all(*used.session, inputs), want);
+    EXPECT_EQ(run_all(*fresh.session, inputs), want);
   }
 }
 
@@ -137,12 +137,12 @@ TEST(Streams, SessionsTakingTurnsInOneArenaDoNotDisturbEachOther) {
   }
   for (std::size_t frame = 0; frame < kFrames; ++frame) {
     for (std::size_t i = 0; i < 2; ++i) {
-      together[i].push_back(answer(*sessions[i], inputs[i][frame]));
+      together[i].push_back(run(*sessions[i], inputs[i][frame]));
     }
   }
   for (std::size_t i = 0; i < 2; ++i) {
     OwnedSession alone(finished(decoder.writer), "net");
-    EXPECT_EQ(answers(*alone.session, inputs[i]), together[i]);
+    EXPECT_EQ(run_all(*alone.session, inputs[i]), together[i]);
   }
 }
 
@@ -164,11 +164,11 @@ TEST(Streams, FadingStateBecomesZeroNotDenormal) {
     ASSERT_EQ(engine.status, MIEN_OK);
     Map input(1, 1, 8);
     std::fill(input.values.begin(), input.values.end(), 1.0);
-    EXPECT_GT(answer(*engine.session, input)[0], 0.1f);
+    EXPECT_GT(run(*engine.session, input)[0], 0.1f);
     input = Map(1, 1, 8);
     std::vector<float> last;
     for (int step = 0; step < 200; ++step) {
-      last = answer(*engine.session, input);
+      last = run(*engine.session, input);
       for (const float one : last) {
         EXPECT_TRUE(one == 0.0f || one >= FLT_MIN) << "denormal at step " << step;
       }

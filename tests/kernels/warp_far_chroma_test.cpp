@@ -35,7 +35,7 @@ class SparseBytes {
 };
 
 // The offset of the last sample of a row exceeds 32 bits.
-TEST(Warp, SamplesOfChromaMayLieAsFarApartAsTheirStepAllows) {
+TEST(Warp, ChromaSamplesMayBeFarApart) {
   if (sizeof(void*) < 8) {
     GTEST_SKIP() << "such a plane needs 64-bit addresses";
   }

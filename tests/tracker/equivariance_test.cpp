@@ -39,17 +39,17 @@ void expect_identical(const Result& a, const Result& b) {
   EXPECT_EQ(std::memcmp(&a, &b, sizeof(mien_result)), 0);
 }
 
-void expect_close(const Result& a, const Result& b, float pixels, float share) {
-  EXPECT_NEAR(a.face_probability, b.face_probability, share);
+void expect_close(const Result& a, const Result& b, float pixels, float tolerance) {
+  EXPECT_NEAR(a.face_probability, b.face_probability, tolerance);
   for (int i = 0; i < 4; ++i) {
     EXPECT_NEAR(a.box[i], b.box[i], pixels);
-    EXPECT_NEAR(a.rotation[i], b.rotation[i], share);
+    EXPECT_NEAR(a.rotation[i], b.rotation[i], tolerance);
   }
   for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(a.translation[i], b.translation[i], share);
+    EXPECT_NEAR(a.translation[i], b.translation[i], tolerance);
   }
   for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
-    EXPECT_NEAR(a.controls[i], b.controls[i], share) << mien_control_name(i);
+    EXPECT_NEAR(a.controls[i], b.controls[i], tolerance) << mien_control_name(i);
   }
   for (int i = 0; i < MIEN_LANDMARK_COUNT; ++i) {
     EXPECT_NEAR(a.landmarks[i][0], b.landmarks[i][0], pixels) << i;

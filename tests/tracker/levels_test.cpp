@@ -304,15 +304,15 @@ constexpr float kGrowth[] = {5.9f, 1.2f, 1.7f};
 TEST(LevelGovernor, RaisesTheLevelOnlyWithHeadroom) {
   constexpr float kBudgetMs = 20.0f;
   for (std::int32_t level = 1; level <= 3; ++level) {
-    for (const float share_of_budget : {0.80f, 0.84f, 0.86f, 0.95f}) {
+    for (const float budget_fraction : {0.80f, 0.84f, 0.86f, 0.95f}) {
       tracker::LevelGovernor governor(kBudgetMs, 4);
       governor.begin_at(level);
-      const float ms = share_of_budget * kBudgetMs / kGrowth[level - 1];
+      const float ms = budget_fraction * kBudgetMs / kGrowth[level - 1];
       for (int frame = 0; frame < 75; ++frame) {
         governor.account(static_cast<std::uint64_t>(ms * 1e6f), 1.0f / 30.0f);
       }
-      EXPECT_EQ(governor.level(), share_of_budget < 0.85f ? level + 1 : level)
-          << "from level " << level << ", " << share_of_budget << " of the budget";
+      EXPECT_EQ(governor.level(), budget_fraction < 0.85f ? level + 1 : level)
+          << "from level " << level << ", " << budget_fraction << " of the budget";
     }
   }
 }

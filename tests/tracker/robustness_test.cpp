@@ -116,7 +116,7 @@ TEST(Images, NewSizeStartsDetectionOnTheSameFrame) {
 TEST(Images, NewSizeCancelsARunningDetection) {
   BlobTracker tracker;
   (void)tracker.push(Picture(320, 240));                        // whole detection
-  while (tracker.push(Picture(320, 240)).proposal_runs < 2u) {  // the first share of the next
+  while (tracker.push(Picture(320, 240)).proposal_runs < 2u) {  // the first chunk of the next
   }
   const Result result = tracker.push(disc_picture(320.0f, 240.0f, 140.0f, 640, 480));
   EXPECT_EQ(result.status, MIEN_FACE_TRACKING);

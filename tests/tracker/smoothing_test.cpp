@@ -124,8 +124,8 @@ TEST(Smoothing, PosesDoNotDependOnTheDirection) {
     shown.rotation = rotation_by(from);
     raw.rotation = rotation_by(from + 0.1f);
     smooth_pose(raw, kFrame, shown);
-    const float share = kRotationSmoothing.share(0.1f, kFrame);
-    const HeadPose expected = {rotation_by(from + share * 0.1f), {}};
+    const float alpha = kRotationSmoothing.alpha(0.1f, kFrame);
+    const HeadPose expected = {rotation_by(from + alpha * 0.1f), {}};
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t column = 0; column < 3; ++column) {
         EXPECT_NEAR(shown.rotation[row][column], expected.rotation[row][column], 1e-3f) << from;

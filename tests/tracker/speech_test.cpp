@@ -157,7 +157,7 @@ TEST(Speech, QueueIsEmptyAfterAFrame) {
   }
 }
 
-// Measures the share of audio in jawOpen after a face is lost.
+// Measures the weight of audio in jawOpen after a face is lost.
 TEST(Speech, ReplacesALostFaceWithinATenthOfASecond) {
   const auto mix = [](BlobTracker& tracker) {
     return tracker.tracker().set_mix(static_cast<int>(kJaw), 0.25f, 0.0f);

@@ -349,7 +349,7 @@ TEST(Tracking, OnlyTheFirstFrameRunsAWholeDetection) {
 }
 
 // A detection that is spread over equal images finds the same as one on a single image.
-TEST(Tracking, DetectionInSharesFindsTheSameAsInOneFrame) {
+TEST(Tracking, DetectionInChunksFindsTheSameAsInOneFrame) {
   for (const float diameter : {20.0f, 47.0f, 150.0f}) {
     const Picture disc = disc_picture(211.0f, 103.0f, diameter);
     BlobTracker at_once, spread;

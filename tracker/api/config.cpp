@@ -41,7 +41,7 @@ class Ranges {
 };
 
 void check_ranges(const mien_tracker_config& c, Ranges& ranges) {
-  ranges.check("max_lod", c.max_lod, kLowestLevel, kHighestLevel);
+  ranges.check("max_lod", c.max_lod, kMinLevel, kMaxLevel);
   ranges.check("horizontal_fov", c.horizontal_fov, 0.01f, 3.1f);
   ranges.check("accept_probability", c.accept_probability, 0.0f, 1.0f);
   ranges.check("lose_probability", c.lose_probability, 0.0f, c.accept_probability);
@@ -78,7 +78,7 @@ mien_status read_config(const mien_tracker_config* given, mien_tracker_config& c
   Ranges ranges(error);
   check_ranges(config, ranges);
   if (!has_hifinet(*config.weights)) {
-    config.max_lod = kLowestLevel;
+    config.max_lod = kMinLevel;
   }
   ranges.check("lod", config.lod, 0, config.max_lod, MIEN_ERROR_UNSUPPORTED_LOD);
   return static_cast<mien_status>(error.status);
@@ -94,7 +94,7 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->struct_size = sizeof *config;
   config->cpu_mask = MIEN_CPU_ALL;
   config->lod = 1;
-  config->max_lod = mien::tracker::kHighestLevel;
+  config->max_lod = mien::tracker::kMaxLevel;
   config->horizontal_fov = mien::tracker::kSixtyDegrees;
   config->accept_probability = 0.999f;
   config->lose_probability = 0.5f;

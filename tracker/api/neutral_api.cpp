@@ -20,7 +20,7 @@ static_assert(MIEN_NEUTRAL_BYTES == mien::formats::kNeutralFileBytes);
 static_assert(mien::formats::kNeutralLevels / 2 == kControls);
 
 // For each part of a neutral file, a level of detail that uses its decoder.
-constexpr std::int32_t kLevelOfPart[] = {mien::tracker::kLowestLevel, mien::tracker::kHighestLevel};
+constexpr std::int32_t kLevelOfPart[] = {mien::tracker::kMinLevel, mien::tracker::kMaxLevel};
 
 std::span<float, kControls> levels(NeutralFile& file, std::size_t part) {
   return std::span<float, kControls>(file.levels + part * kControls, kControls);

@@ -51,7 +51,7 @@ Controls all_controls(const audio::Speech& speech, float strength) {
 constexpr float kMinAlpha = 1e-6f;  // below it alpha is 0
 
 // Step of a first-order low-pass towards its input, as a fraction of their distance.
-float low_pass_share(float seconds, float time_constant_ms) {
+float low_pass_coefficient(float seconds, float time_constant_ms) {
   return time_constant_ms > 0.0f ? 1.0f - std::exp(-1000.0f * seconds / time_constant_ms) : 1.0f;
 }
 
@@ -140,7 +140,8 @@ void AudioTrack::advance(std::int64_t pts_ns, float seconds) {
   }
   const float time_constant_ms =
       speech.activity > output_.alpha ? config_.voice_attack_ms : config_.voice_release_ms;
-  output_.alpha += low_pass_share(seconds, time_constant_ms) * (speech.activity - output_.alpha);
+  output_.alpha +=
+      low_pass_coefficient(seconds, time_constant_ms) * (speech.activity - output_.alpha);
   output_.alpha = output_.alpha < kMinAlpha ? 0.0f : output_.alpha;
 }
 

@@ -34,8 +34,8 @@ mien_status check(const mien_audio& audio) {
   if (audio.format != MIEN_SAMPLES_FLOAT32 && audio.format != MIEN_SAMPLES_INT16) {
     return MIEN_ERROR_AUDIO_FORMAT;
   }
-  if (audio.sample_rate < audio::Resampler::kLowestRate ||
-      audio.sample_rate > audio::Resampler::kHighestRate) {
+  if (audio.sample_rate < audio::Resampler::kMinRate ||
+      audio.sample_rate > audio::Resampler::kMaxRate) {
     return MIEN_ERROR_AUDIO_RATE;
   }
   if (audio.channels < 1 || audio.channels > MIEN_MAX_AUDIO_CHANNELS) {

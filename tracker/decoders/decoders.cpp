@@ -28,18 +28,18 @@ mien_status Decoders::load(const Models& models, std::uint32_t cpu_mask, engine:
 
 void Decoders::reset(std::int32_t level) {
   basenet_controls_.reset();
-  if (level > kLowestLevel) {
+  if (level > kMinLevel) {
     hifinet_controls_.reset();
   }
   basenet_neutral_.restart();
   hifinet_neutral_.restart();
   pose_.reset();
-  fade_.jump(level > kLowestLevel);
+  fade_.jump(level > kMinLevel);
 }
 
 void Decoders::decode_controls(const Features& basenet, const Features& hifinet, std::int32_t level,
                                float seconds, std::span<float, kControls> controls) {
-  const bool to_hifinet = level > kLowestLevel;
+  const bool to_hifinet = level > kMinLevel;
   if (to_hifinet && !fade_.second_is_active()) {
     hifinet_controls_.reset();
   }
@@ -67,14 +67,14 @@ void Decoders::decode_controls(const Features& basenet, const Features& hifinet,
 
 // Captures at most one decoder, and never the one that fades out.
 void Decoders::transfer_capture(std::int32_t level) {
-  Neutral& other = neutral(level > kLowestLevel ? kLowestLevel : kHighestLevel);
+  Neutral& other = neutral(level > kMinLevel ? kMinLevel : kMaxLevel);
   if (other.is_being_captured()) {
     other.cancel();
     neutral(level).capture();
   }
 }
 
-float Decoders::supported_share(std::size_t control) const {
+float Decoders::supported_weight(std::size_t control) const {
   const auto supports = [control](const ControlsDecoder& decoder) {
     return static_cast<float>(decoder.supported() >> control & 1u);
   };

@@ -38,10 +38,10 @@ class Decoders {
 
   // The neutral calibration of the controls decoder that the level uses.
   [[nodiscard]] Neutral& neutral(std::int32_t level) {
-    return level > kLowestLevel ? hifinet_neutral_ : basenet_neutral_;
+    return level > kMinLevel ? hifinet_neutral_ : basenet_neutral_;
   }
   [[nodiscard]] const Neutral& neutral(std::int32_t level) const {
-    return level > kLowestLevel ? hifinet_neutral_ : basenet_neutral_;
+    return level > kMinLevel ? hifinet_neutral_ : basenet_neutral_;
   }
 
   // Leaves `pose` unchanged if the prediction is not a valid pose.
@@ -49,7 +49,7 @@ class Decoders {
 
   // Bit i: the level's decoder predicts control i.
   [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
-    return level > kLowestLevel ? hifinet_controls_.supported() : basenet_controls_.supported();
+    return level > kMinLevel ? hifinet_controls_.supported() : basenet_controls_.supported();
   }
   // Bit i: a running decoder predicts control i; during a crossfade both run.
   [[nodiscard]] std::uint64_t active_controls() const {
@@ -57,7 +57,7 @@ class Decoders {
            (fade_.second_is_active() ? hifinet_controls_.supported() : 0);
   }
   // Weight, 0..1, in the crossfade of those decoders that predict the control.
-  [[nodiscard]] float supported_share(std::size_t control) const;
+  [[nodiscard]] float supported_weight(std::size_t control) const;
 
  private:
   void transfer_capture(std::int32_t level);

@@ -18,8 +18,8 @@ Quaternion towards(const Quaternion& from, Quaternion to, float seconds) {
     cosine = -cosine;
   }
   const float angle = 2.0f * std::acos(std::min(cosine, 1.0f));
-  const float share = kRotationSmoothing.share(angle, seconds);
-  const auto mix = [share](float a, float b) { return a + share * (b - a); };
+  const float alpha = kRotationSmoothing.alpha(angle, seconds);
+  const auto mix = [alpha](float a, float b) { return a + alpha * (b - a); };
   const Quaternion q = {mix(from.x, to.x), mix(from.y, to.y), mix(from.z, to.z), mix(from.w, to.w)};
   const float length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   return {q.x / length, q.y / length, q.z / length, q.w / length};
@@ -30,7 +30,7 @@ Quaternion towards(const Quaternion& from, Quaternion to, float seconds) {
 void smooth_controls(std::span<const float> raw, float seconds, std::span<float> smoothed) {
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const float step = raw[i] - smoothed[i];
-    smoothed[i] += kControlSmoothing.share(std::abs(step), seconds) * step;
+    smoothed[i] += kControlSmoothing.alpha(std::abs(step), seconds) * step;
   }
 }
 
@@ -38,18 +38,18 @@ void smooth_points(std::span<const Point> raw, float side, float seconds,
                    std::span<Point> smoothed) {
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const Point step = {raw[i].x - smoothed[i].x, raw[i].y - smoothed[i].y};
-    const float share = kLandmarkSmoothing.share(std::hypot(step.x, step.y) / side, seconds);
-    smoothed[i] = {smoothed[i].x + share * step.x, smoothed[i].y + share * step.y};
+    const float alpha = kLandmarkSmoothing.alpha(std::hypot(step.x, step.y) / side, seconds);
+    smoothed[i] = {smoothed[i].x + alpha * step.x, smoothed[i].y + alpha * step.y};
   }
 }
 
 void smooth_pose(const HeadPose& raw, float seconds, HeadPose& smoothed) {
   smoothed.rotation =
       matrix(towards(quaternion(smoothed.rotation), quaternion(raw.rotation), seconds));
-  const float share =
-      kTranslationSmoothing.share(distance(raw.translation, smoothed.translation), seconds);
+  const float alpha =
+      kTranslationSmoothing.alpha(distance(raw.translation, smoothed.translation), seconds);
   for (std::size_t i = 0; i < 3; ++i) {
-    smoothed.translation[i] += share * (raw.translation[i] - smoothed.translation[i]);
+    smoothed.translation[i] += alpha * (raw.translation[i] - smoothed.translation[i]);
   }
 }
 

@@ -17,7 +17,7 @@ struct OneEuro {
   float per_unit;  // increase of the cutoff per unit of speed
 
   // The step from the last output towards the input, as a fraction of their distance.
-  [[nodiscard]] float share(float distance, float seconds) const {
+  [[nodiscard]] float alpha(float distance, float seconds) const {
     constexpr float kTwoPi = 6.2831853f;
     const float cutoff = still_hz + per_unit * distance / seconds;
     const float angle = kTwoPi * cutoff * seconds;

@@ -14,24 +14,24 @@ namespace mien::tracker {
 class FaceDetector {
  public:
   // Begins a scan of the whole image, which finds faces within about 30 degrees of `roll` (radians,
-  // clockwise). It runs in shares of a few million multiply-accumulates, which can be spread over
+  // clockwise). It runs in chunks of a few million multiply-accumulates, which can be spread over
   // images of equal geometry; detections refer to the first of them. A thorough scan has more
   // detections and takes longer.
   virtual void begin(const ImageView& view, bool thorough, float roll) = 0;
-  // Runs the next share. Returns false after the last one.
-  [[nodiscard]] virtual bool run_next_share(const ImageView& view) = 0;
-  // After the last share: writes the best detections to `found`, best first, and returns their
-  // number. The square of a detection is that of the face's crop without its roll.
+  // Runs the next chunk. Returns false after the last one.
+  [[nodiscard]] virtual bool run_next_chunk(const ImageView& view) = 0;
+  // After the last chunk: writes the best detections to `found`, best first, and returns their
+  // number. A detection's square is the face's crop before its rotation by the roll.
   [[nodiscard]] virtual std::size_t found(std::span<Detection> found) = 0;
 
   // A coarse search finds faces of at least a fifth of the image's longer side, within about 30
-  // degrees of `roll`. It has two shares: this one, and `end_coarse`, which refines at most as many
+  // degrees of `roll`. It has two chunks: this one, and `end_coarse`, which refines at most as many
   // detections as fit into `found`. No other call may come between them.
   virtual void begin_coarse(const ImageView& view, float roll) = 0;
   [[nodiscard]] virtual std::size_t end_coarse(const ImageView& view,
                                                std::span<Detection> found) = 0;
 
-  // Searches one part of the image, at a small part of the cost; allowed between the shares of a
+  // Searches one part of the image, at a small part of the cost; allowed between the chunks of a
   // scan. Each `turn` selects another part and refines at most as many detections as fit into
   // `found`; `turns` of them in a row cover all places and sizes of upright faces.
   [[nodiscard]] virtual std::size_t detect_in_tile(const ImageView& view, std::uint32_t turn,

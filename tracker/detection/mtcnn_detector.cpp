@@ -20,16 +20,16 @@ constexpr float kOverlapInSize = 0.5f;
 constexpr float kOverlapOfSizes = 0.7f;
 constexpr float kOverlapRefined = 0.4f;
 constexpr float kThorough = 0.25f;  // factor on P-Net's threshold in a thorough scan
-constexpr float kLargestLogStep = 1.0f;
-constexpr std::int32_t kLargestTile = 60;  // pixels
-// Sizes of a share: about ten million multiply-accumulates for each network.
-constexpr std::int32_t kSharePixels = 6400;  // of a band for P-Net
+constexpr float kMaxLogStep = 1.0f;
+constexpr std::int32_t kMaxTile = 60;  // pixels
+// Sizes of a chunk: about ten million multiply-accumulates for each network.
+constexpr std::int32_t kChunkPixels = 6400;  // of a band for P-Net
 constexpr std::int32_t kMinRows = 24;        // minimum rows of a band
-constexpr std::size_t kRefinedPerShare = 5;  // by R-Net
+constexpr std::size_t kRefinedPerChunk = 5;  // by R-Net
 
 // Applies the regression (dx, dy, dlog), relative to the side of the window.
 Square regressed(const Square& window, const float* regression) {
-  const float dlog = std::clamp(regression[2], -kLargestLogStep, kLargestLogStep);
+  const float dlog = std::clamp(regression[2], -kMaxLogStep, kMaxLogStep);
   return {{window.center.x + regression[0] * window.side,
            window.center.y + regression[1] * window.side},
           window.side * std::exp(dlog)};
@@ -94,10 +94,9 @@ mien_status MtcnnDetector::load(const mien_tracker_config& config, const Models&
     if (side < kWindow) {
       break;
     }
-    status = side > kLargestTile
-                 ? load_large(config, model, side, arena)
-                 : small_[small_count_++].load(model, {"pnet", {side, side, 3}, {1, 3}},
-                                               config.cpu_mask, arena);
+    status = side > kMaxTile ? load_large(config, model, side, arena)
+                             : small_[small_count_++].load(model, {"pnet", {side, side, 3}, {1, 3}},
+                                                           config.cpu_mask, arena);
   }
   const engine::NetworkForm rnet = {"rnet", {kRefineSide, kRefineSide, 3}, {1, 3}};
   return status == MIEN_OK ? rnet_.load(model, rnet, config.cpu_mask, arena) : status;
@@ -110,7 +109,7 @@ mien_status MtcnnDetector::load_large(const mien_tracker_config& config, const e
   size.side = side;
   size.pixels = take<float>(arena, floats);
   // Windows lie two rows apart, so every band begins at an even one.
-  const std::int32_t rows = std::min(std::max(kSharePixels / side, kMinRows), side) / 2 * 2;
+  const std::int32_t rows = std::min(std::max(kChunkPixels / side, kMinRows), side) / 2 * 2;
   const mien_status status =
       size.band.load(model, {"pnet", {rows, side, 3}, {1, 3}}, config.cpu_mask, arena);
   if (status == MIEN_OK && !arena.measuring()) {
@@ -126,7 +125,7 @@ void MtcnnDetector::begin(const ImageView& view, bool thorough, float roll) {
   search_.detections = detections_;
 }
 
-bool MtcnnDetector::run_next_share(const ImageView& view) {
+bool MtcnnDetector::run_next_chunk(const ImageView& view) {
   if (search_.size < large_count_) {
     if (search_.is_resampled) {
       scan_band();
@@ -141,7 +140,7 @@ bool MtcnnDetector::run_next_share(const ImageView& view) {
     scan_small_sizes(search_, 0, small_count_);
     end_scan(search_, kRefined);
   } else {
-    refine(search_, view, kRefinedPerShare);
+    refine(search_, view, kRefinedPerChunk);
   }
   return search_.next_to_refine < search_.scanned;
 }

@@ -24,13 +24,13 @@ class MtcnnDetector final : public FaceDetector {
   [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
                                  engine::Arena& arena);
 
-  // Shares of a scan: resampling the image to one of the larger sizes; P-Net on a band of it, or on
+  // Chunks of a scan: resampling the image to one of the larger sizes; P-Net on a band of it, or on
   // all smaller sizes; R-Net on some of the detections.
   void begin(const ImageView& view, bool thorough, float roll) override;
-  [[nodiscard]] bool run_next_share(const ImageView& view) override;
+  [[nodiscard]] bool run_next_chunk(const ImageView& view) override;
   [[nodiscard]] std::size_t found(std::span<Detection> found) override;
 
-  // Shares: P-Net on the largest of the smaller sizes; P-Net on the others, and R-Net.
+  // Chunks: P-Net on the largest of the smaller sizes; P-Net on the others, and R-Net.
   void begin_coarse(const ImageView& view, float roll) override;
   [[nodiscard]] std::size_t end_coarse(const ImageView& view, std::span<Detection> found) override;
 
@@ -48,7 +48,7 @@ class MtcnnDetector final : public FaceDetector {
   // One of the larger sizes of the pyramid.
   struct LargeSize {
     std::span<float> pixels;  // [side][side][3]
-    engine::Network band;     // P-Net on the rows of one share
+    engine::Network band;     // P-Net on the rows of one chunk
     std::int32_t side = 0;
     std::int32_t window_rows = 0;  // rows of P-Net's windows
   };

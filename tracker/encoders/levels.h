@@ -7,8 +7,8 @@
 
 namespace mien::tracker {
 
-inline constexpr std::int32_t kLowestLevel = 1;   // BaseNet only
-inline constexpr std::int32_t kHighestLevel = 4;  // HiFiNet and BaseNet on every frame
+inline constexpr std::int32_t kMinLevel = 1;  // BaseNet only
+inline constexpr std::int32_t kMaxLevel = 4;  // HiFiNet and BaseNet on every frame
 
 struct EncoderWork {
   bool basenet;
@@ -55,7 +55,7 @@ class LevelGovernor {
     if (since_change_ < kSettleSeconds || frames_ < kMinFrames) {
       return;
     }
-    if (mean_ms_ > budget_ms_ && level_ > kLowestLevel) {
+    if (mean_ms_ > budget_ms_ && level_ > kMinLevel) {
       begin_at(level_ - 1);
     } else if (level_ < max_level_ && mean_ms_ * growth(level_) < kHeadroom * budget_ms_) {
       begin_at(level_ + 1);
@@ -71,7 +71,7 @@ class LevelGovernor {
   // Cost of the next level relative to this one, from the multiply-accumulates of the encoders.
   [[nodiscard]] static constexpr float growth(std::int32_t level) {
     constexpr std::array<float, 3> kGrowth = {5.9f, 1.2f, 1.7f};
-    return kGrowth[static_cast<std::size_t>(level - kLowestLevel)];
+    return kGrowth[static_cast<std::size_t>(level - kMinLevel)];
   }
 
   float budget_ms_;

@@ -13,12 +13,13 @@ namespace {
 
 constexpr float kFadeSeconds = 0.25f;
 constexpr float kPresenceSeconds = 0.1f;
-constexpr float kFaded = 1e-4f;    // smaller controls become 0
-constexpr float kMinFace = 0.02f;  // crop sides, in longer sides of the image
+constexpr float kFaded = 1e-4f;  // smaller controls become 0
+// Limits of a crop's side, relative to the longer side of the image.
+constexpr float kMinFace = 0.02f;
 constexpr float kMaxFace = 4.0f;
 constexpr float kDetectorScoreWeight = 0.4f;  // relative to the face probability's
-// Added to the log-odds required of a detection at a roll: detection tries several rolls at a place
-// without a face, and any of them may look like one.
+// Added to the log-odds required of a detection at a roll other than 0: detection tries several
+// rolls at each place, which multiplies its false positives.
 constexpr float kRolledMargin = 0.5f;
 
 // Whether a crop can contain a part of a face in the image.
@@ -52,7 +53,7 @@ float combined(float face_probability, const Detection& detection) {
 void Face::reset(std::int32_t level) {
   state_ = State();
   decoders_.reset(level);
-  for (const std::int32_t either : {kLowestLevel, kHighestLevel}) {
+  for (const std::int32_t either : {kMinLevel, kMaxLevel}) {
     decoders_.neutral(either).forget();
   }
   mien_result_default(&result_);
@@ -76,7 +77,7 @@ bool Face::start_tracking(Frame& frame, const Encoding& encoding, std::uint32_t 
   if (!accept(frame, encoding)) {
     return false;
   }
-  if (frame.level > kLowestLevel) {
+  if (frame.level > kMinLevel) {
     encode_hifinet(frame);
   }
   state_.id = id;
@@ -100,8 +101,8 @@ void Face::change_geometry(const ImageGeometry& before, const ImageGeometry& now
 }
 
 void Face::track(Frame& frame) {
-  state_.has_hifinet_features = state_.has_hifinet_features && frame.level > kLowestLevel;
-  const bool may_rest = frame.level == kLowestLevel || state_.has_hifinet_features;
+  state_.has_hifinet_features = state_.has_hifinet_features && frame.level > kMinLevel;
+  const bool may_rest = frame.level == kMinLevel || state_.has_hifinet_features;
   const bool alternate = state_.alternate && may_rest && !frame.cut;
   const EncoderWork work = encoder_work(frame.level, alternate);
   state_.alternate = false;
@@ -169,7 +170,7 @@ void Face::encode_hifinet(Frame& frame) {
 // HiFiNet's landmarks; on frames without HiFiNet, BaseNet's with HiFiNet's latest refinement.
 Landmarks Face::landmarks(std::int32_t level) const {
   Landmarks refined = state_.encoding.landmarks;
-  if (level == kLowestLevel) {
+  if (level == kMinLevel) {
     return refined;
   }
   const float side = state_.crop.side;
@@ -181,8 +182,8 @@ Landmarks Face::landmarks(std::int32_t level) const {
 }
 
 void Face::animate(Frame& frame) {
-  const float share = 1.0f - std::exp(-frame.seconds / kPresenceSeconds);
-  state_.presence += share * ((state_.tracked ? 1.0f : 0.0f) - state_.presence);
+  const float alpha = 1.0f - std::exp(-frame.seconds / kPresenceSeconds);
+  state_.presence += alpha * ((state_.tracked ? 1.0f : 0.0f) - state_.presence);
   if (!state_.tracked) {
     fade(frame.seconds);
     state_.seconds_lost += frame.seconds;
@@ -229,7 +230,7 @@ void Face::fade(float seconds) {
 std::array<float, kControls> Face::video_weights() const {
   std::array<float, kControls> weights;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = state_.presence * decoders_.supported_share(i);
+    weights[i] = state_.presence * decoders_.supported_weight(i);
   }
   return weights;
 }

@@ -10,8 +10,10 @@
 namespace mien::tracker {
 namespace {
 
-constexpr float kSamePlace = 0.4f;  // distance of centres for one face, in larger sides
-constexpr float kNear = 1.0f;       // the same for a face that moved while lost
+// Maximum distance between the centres of two squares around the same face, relative to the larger
+// side; for a face that may have moved while it was lost.
+constexpr float kSamePlace = 0.4f;
+constexpr float kNear = 1.0f;
 
 float distance(const Square& a, const Square& b) {
   return std::hypot(a.center.x - b.center.x, a.center.y - b.center.y) / std::max(a.side, b.side);

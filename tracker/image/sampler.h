@@ -13,7 +13,7 @@
 namespace mien::tracker {
 
 // The sampling of a crop: rows x columns square samples around its centre. `extent` is the height
-// of all rows, in sides of the crop.
+// of all rows, relative to the crop's side.
 struct Raster {
   std::int32_t rows;
   std::int32_t columns;

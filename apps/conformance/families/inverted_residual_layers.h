@@ -109,12 +109,12 @@ struct Layers {
 
   // Gives expand, project or both 8 bits, with bounds that some inputs exceed or none reaches.
   void choose_int8(RandomValues& random, const RandomActivation& depthwise) {
-    const float share = 0.5f * static_cast<float>(random.between(1, 3));
+    const float factor = 0.5f * static_cast<float>(random.between(1, 3));
     if (shape.in_c > 0 && random.coin()) {
-      bound1 = std::clamp(share * largest_input(), 0x1p-64f, 0x1p64f);
+      bound1 = std::clamp(factor * largest_input(), 0x1p-64f, 0x1p64f);
     }
     if (random.coin()) {
-      bound3 = share * static_cast<float>(band_max(depthwise));
+      bound3 = factor * static_cast<float>(band_max(depthwise));
     }
     if (random.is_half()) {
       const bool short_sums = has_short_sums(shape, bound1 > 0.0f);

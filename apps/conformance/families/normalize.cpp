@@ -51,9 +51,9 @@ Case make(RandomValues& random, int pixels, int channels, float epsilon, bool in
     for (int c = 0; c < channels; ++c) {
       pixel.push_back(static_cast<double>(x[blocked(c, p, pixels)]));
     }
-    const std::vector<Approx> answer = normalized(pixel, static_cast<double>(epsilon));
+    const std::vector<Approx> expected = normalized(pixel, static_cast<double>(epsilon));
     for (int c = 0; c < channels; ++c) {
-      y[blocked(c, p, pixels)] = answer[as_size(c)];
+      y[blocked(c, p, pixels)] = expected[as_size(c)];
     }
   }
   Case test;

@@ -66,7 +66,7 @@ Case make(RandomValues& random, int n) {
 
 template <>
 Case random_case<PowerSpectrumArgs>(RandomValues& random) {
-  return make(random, PowerSpectrumArgs::kSmallest << random.between(0, 3));
+  return make(random, PowerSpectrumArgs::kMinSize << random.between(0, 3));
 }
 
 template <>

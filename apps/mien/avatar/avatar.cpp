@@ -48,11 +48,11 @@ class BoneKeys {
 
 std::vector<float> weights(const MorphNode& morphs, const DriverValues& values) {
   std::vector<double> sums(morphs.rest.begin(), morphs.rest.end());
-  for (const MorphShare& share : morphs.shares) {
-    sums[share.target] = 0.0;
+  for (const MorphTerm& term : morphs.terms) {
+    sums[term.target] = 0.0;
   }
-  for (const MorphShare& share : morphs.shares) {
-    sums[share.target] += share.share * values.of(share.driver);
+  for (const MorphTerm& term : morphs.terms) {
+    sums[term.target] += term.weight * values.of(term.driver);
   }
   std::vector<float> result;
   result.reserve(sums.size());
@@ -96,15 +96,16 @@ class AnimationBuilder {
   Json channels_ = Json::array(), samplers_ = Json::array();
 };
 
-// Morph targets that look may stand beside eye bones; both together would look twice as far.
+// Whether morph targets move the gaze. Eye bones must then stay still: both together would double
+// the angle.
 bool looks_by_morphs(const std::vector<MorphNode>& nodes) {
   Frame looking;
   looking.controls.fill(0.0);
   looking.controls[formats::control("eyeLookInLeft")] = 1.0;
   const DriverValues values(looking);
   return std::any_of(nodes.begin(), nodes.end(), [&](const MorphNode& morphs) {
-    return std::any_of(morphs.shares.begin(), morphs.shares.end(),
-                       [&](const MorphShare& share) { return values.of(share.driver) > 0.0; });
+    return std::any_of(morphs.terms.begin(), morphs.terms.end(),
+                       [&](const MorphTerm& term) { return values.of(term.driver) > 0.0; });
   });
 }
 

@@ -13,18 +13,18 @@
 
 namespace mien::app {
 
-// A share of a morph target's weight.
-struct MorphShare {
+// A term of a morph target's weight.
+struct MorphTerm {
   std::size_t target = 0;
   Driver driver;
-  double share = 1.0;
+  double weight = 1.0;
 };
 
 // A node whose mesh has driven morph targets.
 struct MorphNode {
   std::size_t node = 0;
   std::vector<float> rest;  // weights of all targets without animation
-  std::vector<MorphShare> shares;
+  std::vector<MorphTerm> terms;
 };
 
 class Avatar {

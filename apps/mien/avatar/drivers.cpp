@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMinArkitNames = 20;  // of a VRM with "perfect sync"
 
-// Drivers by plain names.
+// The drivers of a vocabulary, by plain name (names.h).
 Drivers table(int vocabulary) {
   Drivers drivers;
   for (std::int32_t i = 0; i < mien_vocabulary_size(vocabulary); ++i) {

@@ -18,12 +18,12 @@ struct Driver {
   std::array<std::size_t, 2> values = {};
 };
 
-using Drivers = std::map<std::string, Driver>;  // by the avatar's names
+using Drivers = std::map<std::string, Driver>;  // by name in the avatar
 
 // Visemes and the vowels of VRM move the mouth only if no name of ARKit or Roblox opens the jaw.
 [[nodiscard]] Drivers morph_drivers(const std::vector<std::string>& names);
 
-// Of a VRM: ARKit's names, if it has them, otherwise the presets.
+// For the expressions of a VRM: ARKit's names if it has them, otherwise the presets.
 [[nodiscard]] Drivers expression_drivers(const std::vector<std::string>& names);
 
 // The values of a frame in all vocabularies. Unsupported controls are 0.
@@ -33,7 +33,7 @@ class DriverValues {
   [[nodiscard]] double of(const Driver& driver) const;
 
  private:
-  std::vector<std::vector<float>> values_;  // by vocabulary
+  std::vector<std::vector<float>> values_;  // [vocabulary][name]
 };
 
 }  // namespace mien::app

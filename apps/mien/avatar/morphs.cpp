@@ -58,7 +58,7 @@ void drive_by_names(const Json& document, std::vector<MorphNode>& nodes) {
     const std::vector<std::string> names = target_names(mesh_of(document, morphs));
     for (std::size_t i = 0; i < std::min(names.size(), morphs.rest.size()); ++i) {
       if (const auto known = drivers.find(names[i]); known != drivers.end()) {
-        morphs.shares.push_back({i, known->second, 1.0});
+        morphs.terms.push_back({i, known->second, 1.0});
       }
     }
   }
@@ -117,7 +117,7 @@ void drive_by_expressions(const Json& document, const std::vector<Bind>& binds,
                             ? bind.index == morphs.node
                             : bind.index == document.at("nodes").at(morphs.node).at("mesh");
       if (same && driver != drivers.end() && bind.target < morphs.rest.size()) {
-        morphs.shares.push_back({bind.target, driver->second, bind.weight});
+        morphs.terms.push_back({bind.target, driver->second, bind.weight});
       }
     }
   }
@@ -134,7 +134,7 @@ std::vector<MorphNode> find_morphs(const Json& document) {
   } else {
     drive_by_names(document, nodes);
   }
-  std::erase_if(nodes, [](const MorphNode& morphs) { return morphs.shares.empty(); });
+  std::erase_if(nodes, [](const MorphNode& morphs) { return morphs.terms.empty(); });
   return nodes;
 }
 

@@ -7,8 +7,8 @@
 
 namespace mien::app {
 
-// By the expressions of a VRM, or by the names of targets. Throws Json::exception if meshes or
-// expressions are malformed.
+// Finds them by the expressions of a VRM, or by the names of targets. Throws Json::exception if
+// meshes or expressions are malformed.
 [[nodiscard]] std::vector<MorphNode> find_morphs(const Json& document);
 
 }  // namespace mien::app

@@ -23,15 +23,14 @@ struct Bone {
 struct Rig {
   std::optional<Bone> head;
   std::array<std::optional<Bone>, 2> eyes;  // left, right
-  bool faces_back = false;                  // looks along -z, as VRM 0.x; otherwise along z
+  bool faces_back = false;                  // faces -z, as in VRM 0.x; otherwise +z
 
-  // A rotation of ours in the scene of the avatar.
+  // Converts a rotation of a frame (frame.h) to the axes of the avatar's scene.
   [[nodiscard]] animation::Quaternion in_scene(const animation::Angles& angles) const;
 };
 
-// Finds bones by the humanoid of a VRM, or by name (Head, bone:LeftEye, eye_L, and those of
-// VRoid Studio and Character Creator). Throws
-// Json::exception if nodes are malformed.
+// Finds bones by the humanoid of a VRM, or by name (Head, bone:LeftEye, eye_L, and those of VRoid
+// Studio and Character Creator). Throws Json::exception if nodes are malformed.
 [[nodiscard]] Rig find_rig(const Json& document);
 
 // A VRM's extension, or nullptr.

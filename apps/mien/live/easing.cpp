@@ -15,22 +15,22 @@ constexpr double kHoldS = 0.5, kEaseS = 1.0, kFadeInS = 0.2;
 
 double smooth(double x) { return x * x * (3.0 - 2.0 * x); }
 
-double mixed(double a, double b, double share) { return a + share * (b - a); }
+double mixed(double a, double b, double fraction) { return a + fraction * (b - a); }
 
-Frame between(const Frame& from, const Frame& to, double share) {
+Frame between(const Frame& from, const Frame& to, double fraction) {
   Frame result = to;
   for (std::size_t i = 0; i < result.controls.size(); ++i) {
     if (formats::driven(from.controls[i]) || formats::driven(to.controls[i])) {
       result.controls[i] =
-          mixed(formats::or_zero(from.controls[i]), formats::or_zero(to.controls[i]), share);
+          mixed(formats::or_zero(from.controls[i]), formats::or_zero(to.controls[i]), fraction);
     }
   }
   if (from.head && to.head) {
-    result.head = animation::between(*from.head, *to.head, share);
+    result.head = animation::between(*from.head, *to.head, fraction);
   }
   if (from.position_m && to.position_m) {
     for (std::size_t i = 0; i < 3; ++i) {
-      (*result.position_m)[i] = mixed((*from.position_m)[i], (*to.position_m)[i], share);
+      (*result.position_m)[i] = mixed((*from.position_m)[i], (*to.position_m)[i], fraction);
     }
   }
   return result;
@@ -39,7 +39,7 @@ Frame between(const Frame& from, const Frame& to, double share) {
 }  // namespace
 
 // The progress of the transition since the state changed, 0..1.
-double Easing::share(std::int64_t now_ns) const {
+double Easing::progress(std::int64_t now_ns) const {
   const double since_s = static_cast<double>(now_ns - changed_ns_) * 1e-9;
   const double way =
       output_.state == FaceState::kTracking ? since_s / kFadeInS : (since_s - kHoldS) / kEaseS;
@@ -63,7 +63,7 @@ Frame Easing::next(const Frame& tracked) {
     target.position_m = output_.position_m;
   }
   output_.state = tracked.state;
-  const double way = share(tracked.time_ns);
+  const double way = progress(tracked.time_ns);
   if (way >= 1.0) {
     from_.reset();
   }

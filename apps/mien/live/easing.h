@@ -19,7 +19,7 @@ class Easing {
 
  private:
   void change(animation::FaceState state, std::int64_t now_ns);
-  [[nodiscard]] double share(std::int64_t now_ns) const;
+  [[nodiscard]] double progress(std::int64_t now_ns) const;
 
   std::optional<animation::Frame> from_;  // the output when the state changed
   animation::Frame output_;               // the last output; searching before the first

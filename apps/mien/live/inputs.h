@@ -35,10 +35,10 @@ class LiveInputs {
   [[nodiscard]] Camera& camera() { return *camera_; }
   [[nodiscard]] const std::string& camera_name() const { return camera_state_.name; }
   [[nodiscard]] const std::string& microphone_name() const { return microphone_state_.name; }
-  // With current errors.
+  // Include the current error.
   [[nodiscard]] const InputState& camera_state();
   [[nodiscard]] const InputState& microphone_state();
-  // Of all cameras so far.
+  // The number of images that all cameras so far have dropped.
   [[nodiscard]] std::uint64_t dropped() { return dropped_before_ + camera_->dropped(); }
 
   static constexpr const char* kNoInput = "none";

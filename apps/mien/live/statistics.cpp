@@ -18,8 +18,8 @@ void Histogram::add(std::int64_t ns) {
   ++count_;
 }
 
-double Histogram::quantile(double share) const {
-  const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));
+double Histogram::quantile(double fraction) const {
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(count_)));
   std::uint64_t below = 0;
   for (std::size_t i = 0; i < counts_.size() && count_ > 0; ++i) {
     below += counts_[i];

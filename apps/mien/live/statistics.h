@@ -13,8 +13,8 @@ namespace mien::app {
 class Histogram {
  public:
   void add(std::int64_t ns);
-  // In ms; 0 if empty. `share`: 0.5 for the median.
-  [[nodiscard]] double quantile(double share) const;
+  // In ms; 0 if empty. `fraction`: 0.5 for the median.
+  [[nodiscard]] double quantile(double fraction) const;
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
  private:

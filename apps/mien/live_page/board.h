@@ -30,8 +30,8 @@ class Board {
   void put_profile(std::string profile);
   std::optional<PageCommand> next_command();
 
-  // Called by connections. Waits until there are other texts than `news`, and copies those that
-  // have changed. Returns false if the time passes without any.
+  // Called by connections. Waits until a text differs from that in `news`, and copies the
+  // changed texts. Returns false if none changes in time.
   bool wait(News& news, std::chrono::milliseconds within);
   // Waits for a preview taken after this call; empty if the time passes without one.
   std::string preview(std::chrono::milliseconds within);

@@ -70,13 +70,14 @@ std::string header(std::uint32_t width, std::uint32_t height, std::uint32_t pixe
   return bmp;
 }
 
-// The position in a side of `source` pixels at `quarter` quarters of a side of `small` pixels.
+// Scales a coordinate of the preview, in quarters of a pixel, to the image: from a side of `small`
+// pixels to one of `source` pixels.
 int source_position(int quarter, int small, int source) {
   return std::min(source - 1,
                   static_cast<int>(std::int64_t{quarter} * source / (std::int64_t{small} * 4)));
 }
 
-// The mean of four points of the part of the image that the small pixel covers.
+// The mean of four points in the area of the image that a pixel of the preview covers.
 Color mean_color(const mien_image& image, int x, int y, int width, int height) {
   Color sum;
   for (const int down : {1, 3}) {

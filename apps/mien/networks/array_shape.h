@@ -1,5 +1,6 @@
-// The axes of an array as maps of a network: [c] for vectors, or [c][h][w] (or [h][w][c]) for maps,
-// are the last axes. The axes before them count streams, and the last of these counts time steps.
+// Matches the axes of an array with the input of a network. The last axes are one input: [c] for a
+// vector, [c][h][w] or [h][w][c] for a map. Of the axes before them, the last counts time steps and
+// the others count streams.
 #pragma once
 
 #include <mien/engine.h>

@@ -27,7 +27,7 @@ ReportOptions report_options(const TrackOptions& options, const VideoInfo& info)
           .audio = file_or_none(options.audio.empty() ? options.input : options.audio),
           .audio_track = options.audio_track,
           .rotation = options.rotation,
-          .largest_clip_bytes = options.report_clip_mb * 1e6,
+          .max_clip_bytes = options.report_clip_mb * 1e6,
           .name = name_of(path_of(without_credentials(options.input)).filename()),
           .width = info.width,
           .height = info.height,

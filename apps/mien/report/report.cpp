@@ -160,7 +160,7 @@ Report::Clip Report::clip() {
                                  .start_s = start_ms() * 1e-3,
                                  .duration_s = (end_ms() - start_ms()) * 1e-3},
                                 *clip_file_);
-  if (static_cast<double>(video.size()) <= options_.largest_clip_bytes) {
+  if (static_cast<double>(video.size()) <= options_.max_clip_bytes) {
     return {.bytes = std::move(video), .beside = ""};
   }
   clip_file_->publish();

@@ -18,13 +18,13 @@
 namespace mien::app {
 
 struct ReportOptions {
-  std::string page;                  // file
-  std::string video, audio;          // files for the clip; empty: none
-  int audio_track = 1;               // of `audio`; the first is 1
-  std::optional<int> rotation;       // degrees clockwise; overrides that of `video`
-  double largest_clip_bytes = 64e6;  // a larger clip is stored beside the page
-  std::string name;                  // of the input
-  int width = 0, height = 0;         // of the image, pixels
+  std::string page;              // file
+  std::string video, audio;      // files for the clip; empty: none
+  int audio_track = 1;           // of `audio`; the first is 1
+  std::optional<int> rotation;   // degrees clockwise; overrides that of `video`
+  double max_clip_bytes = 64e6;  // a larger clip is stored beside the page
+  std::string name;              // of the input
+  int width = 0, height = 0;     // of the image, pixels
   animation::WriteOptions writing;
 };
 

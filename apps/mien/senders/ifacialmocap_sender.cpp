@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint16_t kPort = 49983;
 constexpr std::size_t kMaxReceivers = 8;
-constexpr int kMaxHellosAFrame = 64;         // more wait in the socket, or the system drops them
+constexpr int kMaxHellosPerFrame = 64;       // others wait in the socket, or the system drops them
 constexpr std::size_t kMaxHelloBytes = 256;  // enough to recognize a hello
 
 struct Receiver {
@@ -55,7 +55,7 @@ class IfacialmocapSender : public Sender {
 
  private:
   void take_hellos() {
-    for (int i = 0; i < kMaxHellosAFrame; ++i) {
+    for (int i = 0; i < kMaxHellosPerFrame; ++i) {
       const std::optional<Datagram> datagram = socket_.receive(kMaxHelloBytes);
       if (!datagram) {
         return;
@@ -67,7 +67,7 @@ class IfacialmocapSender : public Sender {
   }
 
   // The app replies to its own port number, whatever the source port. On one machine that port is
-  // ours, so the reply goes to the source port.
+  // this socket's, so the reply goes to the source port.
   [[nodiscard]] SocketAddress reply_address(const SocketAddress& source) const {
     if (reply_to_source_ || (!reply_port_ && source.loopback())) {
       return source;

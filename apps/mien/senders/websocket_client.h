@@ -19,7 +19,7 @@ class WebSocketClient {
  public:
   // Begins to connect. `host`: the name and the port for the server.
   WebSocketClient(const SocketAddress& server, std::string host);
-  ~WebSocketClient();  // says goodbye
+  ~WebSocketClient();  // sends a close frame
   WebSocketClient(const WebSocketClient&) = delete;
   WebSocketClient& operator=(const WebSocketClient&) = delete;
 

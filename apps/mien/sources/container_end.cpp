@@ -155,9 +155,9 @@ bool flv_ends_early(File& file) {
 
 // Ogg (RFC 3533): the last page must be complete.
 bool ogg_ends_early(File& file) {
-  constexpr std::size_t kLargestPage = 27 + 255 + 255 * 255;
-  const std::uint64_t position = file.size() > kLargestPage ? file.size() - kLargestPage : 0;
-  const std::string end = file.at(position, kLargestPage);
+  constexpr std::size_t kMaxPage = 27 + 255 + 255 * 255;
+  const std::uint64_t position = file.size() > kMaxPage ? file.size() - kMaxPage : 0;
+  const std::string end = file.at(position, kMaxPage);
   const std::size_t page = end.rfind("OggS");
   if (page == std::string::npos) {
     return false;

@@ -67,8 +67,8 @@ int rotation_of(const json& stream) {
 
 // Pixels are assumed to be square if the aspect ratio is missing or invalid.
 double pixel_aspect_of(const json& stream) {
-  const double said = ratio(text(stream, "sample_aspect_ratio"));
-  return said >= kMinPixelAspect && said <= kMaxPixelAspect ? said : 1.0;
+  const double declared = ratio(text(stream, "sample_aspect_ratio"));
+  return declared >= kMinPixelAspect && declared <= kMaxPixelAspect ? declared : 1.0;
 }
 
 VideoTrack video_track(const json& stream, const json& format) {

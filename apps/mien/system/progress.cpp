@@ -38,12 +38,12 @@ void Progress::update(std::int64_t done, std::int64_t frames) {
                  unit_, rate);
     return;
   }
-  const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total_));
+  const double fraction = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total_));
   std::string bar(kBarCells, '.');
-  std::fill_n(bar.begin(), static_cast<std::size_t>(share * kBarCells), '#');
+  std::fill_n(bar.begin(), static_cast<std::size_t>(fraction * kBarCells), '#');
   std::fprintf(stderr, "\r[%s] %3.0f %%  %lld/%lld %s, %.0f frames per second\033[K", bar.c_str(),
-               share * 100.0, static_cast<long long>(done), static_cast<long long>(*total_), unit_,
-               rate);
+               fraction * 100.0, static_cast<long long>(done), static_cast<long long>(*total_),
+               unit_, rate);
 }
 
 }  // namespace mien::app

@@ -52,8 +52,8 @@ std::array<float, MIEN_CONTROL_COUNT> AudioMix::controls(const Result& from_vide
       mixed[i] = from_audio.controls[i];
     } else if (audio_[i] <= 0.0f) {
       mixed[i] = video;
-    } else {  // without a face `from_audio` is (1 - alpha) fading + alpha times the prediction from
-              // audio
+    } else {
+      // Without a face the tracker outputs (1 - alpha) * fading + alpha * prediction from audio.
       const float spoken = std::max(from_audio.controls[i] - (1.0f - alpha) * fading[i], 0.0f);
       mixed[i] =
           std::clamp((1.0f - alpha + alpha * video_[i]) * video + audio_[i] * spoken, 0.0f, 1.0f);

@@ -15,8 +15,8 @@ class AudioMix {
   // Throws Failure.
   explicit AudioMix(const Blob& audionet);
 
-  // `from_video`: a face, from video. `from_audio`: the same frame without a face, from audio, and
-  // the controls that still fade out of a lost face, `fading`.
+  // `from_video`: the result for a face on video. `from_audio`: the result for the same frame of a
+  // tracker that found no face. `fading`: the part of its controls that fades out after a loss.
   [[nodiscard]] std::array<float, MIEN_CONTROL_COUNT> controls(
       const Result& from_video, const Result& from_audio,
       const std::array<float, MIEN_CONTROL_COUNT>& fading) const;

@@ -10,11 +10,12 @@
 namespace mien::app {
 namespace {
 
-// The second tracker begins that many frames after the detection: its decoders need some frames
-// until their controls are those of the first.
+// The second tracker begins this many frames after the detection, so that its decoders have settled
+// before their controls are used.
 constexpr std::int64_t kWarmUp = 10;
-constexpr float kSamePlace = 0.4f;              // of a box, between the middles of one face
-constexpr float kMinProbability = 0.5f;         // face probability; below, the tracker guesses
+constexpr float kSamePlace =
+    0.4f;  // distance of the centres of one face's boxes, relative to the box
+constexpr float kMinProbability = 0.5f;         // face probability; results below it are unreliable
 constexpr std::int64_t kCutNs = 1'000'000'000;  // longer steps are cuts
 constexpr float kFadeSeconds = 0.25f;           // of controls after a loss, as in the tracker
 

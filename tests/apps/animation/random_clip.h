@@ -9,7 +9,7 @@
 
 namespace mien::animation {
 
-inline double share(std::mt19937& random) {
+inline double fraction(std::mt19937& random) {
   return std::uniform_int_distribution(0, 9)(random) == 0
              ? 0.0
              : std::uniform_real_distribution(0.0, 1.0)(random);
@@ -23,10 +23,10 @@ inline Clip random_clip(std::size_t count, unsigned seed) {
     frame.number = static_cast<std::int64_t>(i);
     frame.time_ns = static_cast<std::int64_t>(i) * 40'000'000;
     for (double& value : frame.controls) {
-      value = share(random);
+      value = fraction(random);
     }
-    frame.head = {share(random), share(random), -share(random)};
-    frame.position_m = {share(random), share(random), share(random)};
+    frame.head = {fraction(random), fraction(random), -fraction(random)};
+    frame.position_m = {fraction(random), fraction(random), fraction(random)};
     clip.frames.push_back(frame);
   }
   return clip;

@@ -51,8 +51,8 @@ Packets openseeface(const animation::Frame& frame) {
   image.height = 480;
   image.focal_length_px = 500;
   for (std::size_t i = 0; i < image.landmarks.size(); ++i) {
-    const double share = static_cast<double>(i) / 67.0;
-    image.landmarks[i] = {x + share * width, y + (1.0 - share) * height};
+    const double fraction = static_cast<double>(i) / 67.0;
+    image.landmarks[i] = {x + fraction * width, y + (1.0 - fraction) * height};
   }
   image.pupils = {ImagePoint{x, y}, ImagePoint{x + width, y}};
   return {openseeface_packet(frame, image, seconds(frame))};

@@ -55,7 +55,7 @@ struct Checksum {
   std::uint64_t value = 0xcbf29ce484222325u;
 };
 
-float buzz(int sample) {  // syllables of a kind
+float buzz(int sample) {  // a tone that rises and falls like syllables
   const float t = static_cast<float>(sample) / kRate;
   float sum = 0;
   for (int k = 1; k < 20; ++k) {
@@ -77,7 +77,7 @@ bool track(const mien_weights* weights, const File& pictures, std::uint32_t tier
   Checksum checksum;
   int with_face = 0;
   float loudest = 0;
-  const int frames = tiers == MIEN_CPU_REF ? 2 : kFrames;  // in no hurry
+  const int frames = tiers == MIEN_CPU_REF ? 2 : kFrames;  // which is slow
   for (int i = 0; i < frames; ++i) {
     constexpr int kBlock = kRate / 30;
     float sound[kBlock];
@@ -130,7 +130,7 @@ int main(int count, char** arguments) {
   for (std::uint32_t tier = 1; tier != 0 && tier != MIEN_CPU_FUSED; tier <<= 1) {
     if ((mien_cpu_tiers() & tier) != 0) {
       std::printf("%s ", mien_cpu_tier_name(tier));
-      // Tiers that have not every kernel stand on others.
+      // Other tiers supply the kernels that a tier lacks.
       std::uint32_t below = tier == MIEN_CPU_AVX512        ? MIEN_CPU_AVX2
                             : tier == MIEN_CPU_AVX512_FP16 ? MIEN_CPU_AVX512 | MIEN_CPU_AVX2
                                                            : 0u;
