@@ -1,7 +1,7 @@
 // Finds the drivers of an avatar's morph targets and expressions, by their names.
 import {vocabularies} from './vocabularies.js';
 
-const minimum = 3;  // fewer names that may be of visemes or vowels, such as "A", mean something else
+const minimum = 3;  // with fewer matches, names such as "A" are probably not visemes or vowels
 
 // The letters and digits of a name in lower case, with sides spelled out, and without what precedes a dot, colon or bar.
 const plain = name => name.replace(/^.*[.:|]/, '').toLowerCase().replace(/_l$/, 'left').replace(/_r$/, 'right').replace(/[^a-z0-9]/g, '');

@@ -3,6 +3,7 @@
 export type ImageFormat = 'gray8' | 'rgb' | 'bgr' | 'rgba' | 'bgra' | 'nv12' | 'nv21' | 'i420';
 export type FaceStatus = 'searching' | 'tracking' | 'lost';
 export type StageName = 'proposal' | 'warp' | 'encoder' | 'heads' | 'decoders' | 'sound';
+/** 1 (fastest) to 4 (most accurate); 0: automatic, the highest within budgetMs per frame. */
 export type LevelOfDetail = 0 | 1 | 2 | 3 | 4;
 export type Bytes = ArrayBuffer | ArrayBufferView;
 /** Nanoseconds on one clock for images and audio. */
@@ -41,60 +42,88 @@ export class Weights {
 export interface TrackerConfig {
   /** Levels of detail 2 to 4 need HiFiNet among them, audio needs AudioNet. */
   weights: Weights;
+  /** Default 1. */
   lod?: LevelOfDetail;
   /** Highest level of detail that the tracker will use; 1 saves the memory of HiFiNet. */
   maxLod?: 1 | 2 | 3 | 4;
   /** Accepts audio if the weights have AudioNet; default true. */
   audio?: boolean;
+  /** MIEN_CPU_* bits. */
   cpuMask?: number;
+  /** Horizontal field of view of the upright image for images without focalLengthPx, radians, 0.01..3.1; default pi / 3. */
   horizontalFov?: number;
+  /** Minimum probability of a detection that becomes a tracked face, 0..1; default 0.999. */
   acceptProbability?: number;
+  /** Face probability below which a tracked face counts as missed, 0..acceptProbability; default 0.5. */
   loseProbability?: number;
+  /** Consecutive misses after which a face is lost, 1..1000; default 3. */
   loseAfterFrames?: number;
+  /** Pixels to which detection scales the longer side of the image, 24..640; default 160. */
   proposalSize?: number;
+  /** Threshold of P-Net, 0..1; default 0.4. */
   proposalThreshold?: number;
+  /** Threshold of R-Net, 0..1; default 0.2. */
   refineThreshold?: number;
+  /** Frames between detections in the whole image, 1..1000; default 3. */
   searchInterval?: number;
+  /** Average time budget of a frame with a face for the automatic level, ms, 0.01..1e6; default 10. */
   budgetMs?: number;
+  /** Smooths controls, landmarks and pose while they hardly move; default true. */
   smoothing?: boolean;
+  /** Maximum number of faces, 1..8; default 1. */
   maxFaces?: number;
+  /** Time constant with which voice activity rises, ms, 0..10000; default 40. */
   voiceAttackMs?: number;
+  /** Time constant with which voice activity falls, ms, 0..10000; default 150. */
   voiceReleaseMs?: number;
-  /** Factor of the controls predicted from audio, 0..4. */
+  /** Factor of the controls predicted from audio, 0..4; default 1. */
   voiceStrength?: number;
 }
 
 /** `data` with the planes one after another and no padding (for example an ImageData), or `planes`. The default of `format` is 'rgba'. */
 export interface Image {
   format?: ImageFormat;
+  /** Pixels of the buffer, before rotation, 1..16384. */
   width: number;
+  /** Pixels of the buffer, before rotation, 1..16384. */
   height: number;
   data?: Uint8Array | Uint8ClampedArray;
   planes?: (Uint8Array | Uint8ClampedArray)[];
+  /** For each plane, bytes from the start of a row to that of the row below. */
   rowStrideBytes?: number[];
-  /** I420: from one sample of U or V to the next; 0 means 1. */
+  /** I420: bytes from one sample of U or V to the next; 0 means 1. */
   chromaPixelStrideBytes?: number;
+  /** Clockwise rotation to upright, degrees. */
   rotation?: 0 | 90 | 180 | 270;
+  /** The image mirrors the scene (selfie camera). */
   mirrored?: boolean;
+  /** Grey and YUV: luma 0..255, the default; otherwise video range, 16..235. */
   fullRange?: boolean;
   /** YUV uses BT.709; otherwise BT.601. */
   bt709?: boolean;
   /** Region of interest: x, y, width, height in pixels of the buffer before rotation; nothing outside it is read. */
   region?: [number, number, number, number];
+  /** Pixels of the upright image; 0: unknown, horizontalFov applies. */
   focalLengthPx?: number;
+  /** Principal point in pixels of the upright image; both 0: the centre. */
   principalX?: number;
   principalY?: number;
   /** Width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright image keeps its height. */
   pixelAspect?: number;
 }
 
+/** One face on one frame. */
 export interface Result {
   status: FaceStatus;
+  /** Timestamp of the frame. */
   ptsNs: bigint;
   /** Bit i: control i is supported. */
   supportedControls: bigint;
+  /** 0..1, of the latest crop. */
   faceProbability: number;
+  /** 0..1; 0 without audio. */
   voiceActivity: number;
+  /** Level of detail of the frame, 1..4. */
   lod: number;
   /** MIEN_RESULT_*. */
   flags: number;
@@ -102,10 +131,13 @@ export interface Result {
   box: Float32Array;
   /** Head to camera: unit quaternion x, y, z, w. */
   rotation: Float32Array;
+  /** Radians, positive: looks down. */
   pitch: number;
+  /** Radians, positive: turns to the subject's left. */
   yaw: number;
+  /** Radians, about z by the right-hand rule. */
   roll: number;
-  /** Metres. */
+  /** Metres, x, y, z: the head in camera space. */
   translation: Float32Array;
   /** 52, each 0..1, in the order of Mien.controlNames: controls[mien.control.jawOpen]. */
   controls: Float32Array;
@@ -115,11 +147,17 @@ export interface Result {
   supportedVisemes: number;
   /** x, y of 175 points in pixels of the upright image. */
   landmarks: Float32Array;
+  /** Since create or reset: frames with and without an image. */
   frames: bigint;
+  /** Since create or reset: frames with a tracked face. */
   faceFrames: bigint;
+  /** Since create or reset: detections in the whole image. */
   proposalRuns: bigint;
+  /** Since create or reset: runs of BaseNet and HiFiNet. */
   encoderRuns: bigint;
+  /** Nanoseconds in each stage on this frame. */
   stageNs: Record<StageName, number>;
+  /** Number of the face, from 1 in the order of detection; 0 before the first. */
   faceId: number;
 }
 
@@ -137,24 +175,37 @@ export class Tracker {
   track(source: FrameSource, ptsNs?: Nanoseconds): Promise<Result>;
   /** Takes audio from the port of an audio worklet (mien-worklet.js); the next track() reports an error in it. `listen` connects it. */
   connectAudio(port: MessagePort): void;
+  /** Tracks one image; `ptsNs` is its timestamp. */
   pushVideo(image: Image, ptsNs: Nanoseconds): void;
-  /** Channels interleaved; `ptsNs` is the time of the first sample. */
+  /** Float32 -1..1 or int16, channels interleaved; `ptsNs` is the time of the first sample. `sampleRate`: 8000..192000 Hz; `channels`: 1..8, default 1. */
   pushAudio(samples: Float32Array | Int16Array, format: {sampleRate: number; channels?: number}, ptsNs: Nanoseconds): void;
+  /** Outputs a frame without an image, for audio without video. */
   advance(ptsNs: Nanoseconds): void;
+  /** The result of the latest frame, of the face with the lowest id. */
   getResult(): Result;
+  /** Number of known faces, 0..maxFaces. */
   faceCount(): number;
+  /** `index`: 0..faceCount() - 1, in the order of ids. */
   getFace(index: number): Result;
+  /** Takes effect from the next image on. */
   setLod(lod: LevelOfDetail): void;
+  /** Delays audio relative to the images: nanoseconds added to its timestamps, for audio pushed from now on. */
   setAudioOffset(offsetNs: Nanoseconds): void;
+  /** Weights of audio and video for a control during speech, each 0..1. */
   setMix(control: ControlName | number, audioWeight: number, videoWeight: number): void;
+  /** Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames. */
   captureNeutral(): void;
+  /** The captured neutral values as a file of 448 bytes. `captured`: bit 0: level 1; bit 1: levels 2 to 4. */
   saveNeutral(): {file: Uint8Array; captured: number};
+  /** Restores saved neutral values. */
   loadNeutral(file: Bytes): void;
+  /** Resets the tracker to its state after creation. */
   reset(): void;
   /** Releases all memory; no other call is allowed afterwards. */
   destroy(): void;
 }
 
+/** Shape of a map in rows, columns and channels. */
 export interface Shape {
   height: number;
   width: number;
@@ -167,12 +218,16 @@ export interface TensorView {
   shape: Shape;
 }
 
+/** A custom network of a weight file; mien_network of mien.h documents the layout of maps. */
 export class Network {
   private constructor();
   input(): TensorView;
+  /** Runs the network once, one step of a temporal network. */
   run(): void;
   outputCount(): number;
+  /** `index`: 0..outputCount() - 1. */
   output(index: number): TensorView;
+  /** Resets the state of temporal layers to the start of a stream. */
   reset(): void;
   destroy(): void;
 }
@@ -186,10 +241,12 @@ export class Mien {
   /** Index of each group's first landmark, and number of its landmarks. */
   readonly landmarkGroups: Readonly<Record<LandmarkGroupName, {readonly first: number; readonly count: number}>>;
   readonly stageNames: StageName[];
+  /** 175. */
   readonly landmarkCount: number;
   /** Each file is a weight file, a packed one, or a bundle of several, in any order. */
   createWeights(files: Bytes[]): Weights;
   createTracker(config: TrackerConfig): Tracker;
+  /** `name`: default: the first network. `height`, `width`: size of the input, for networks that accept several; default: the declared size. */
   createNetwork(config: {weights: Weights; name?: string; height?: number; width?: number; cpuMask?: number}): Network;
 }
 
@@ -226,7 +283,7 @@ export function listen(tracker: Tracker | TrackerWorker, source: MediaStream | A
 /** Names of controls in other blendshape standards, as in mien_vocabulary of mien.h; 'visemes' are those of Oculus. */
 export type Vocabulary = 'arkit' | 'mediapipe' | 'roblox' | 'vrm0' | 'vrm1' | 'visemes';
 
-/** The controls that the level of detail predicts, by name. */
+/** The controls that the level of detail predicts, by name, 0..1. */
 export function controlsByName(result: Pick<Result, 'controls' | 'supportedControls'>): Partial<Record<ControlName, number>>;
 /** The same in another vocabulary. */
 export function controlsByName(result: Pick<Result, 'controls' | 'supportedControls' | 'visemes' | 'supportedVisemes'>, vocabulary: Vocabulary): Record<string, number>;

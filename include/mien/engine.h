@@ -33,7 +33,10 @@ struct TensorShape : mien_shape {
   }
 };
 
-/// Floats of a map in the layout of mien_network.
+/// Size of a map in the layout of mien_network.
+/// @param shape     rows, columns, channels
+/// @param is_input  whether it is the input of a network, which may be interleaved
+/// @return number of floats, unused lanes included
 [[nodiscard]] inline std::size_t map_elements(const mien_shape& shape, bool is_input) {
   const auto pixels =
       static_cast<std::size_t>(shape.height) * static_cast<std::size_t>(shape.width);
@@ -82,12 +85,14 @@ class Network {
 
   /// @name After create
   /// @{
+  /// See mien_network_input.
   [[nodiscard]] TensorShape input_shape() const {
     mien_shape shape = {};
     mien_network_input(network_.get(), &shape);
     return shape;
   }
   /// See mien_network_input.
+  /// @return [map_elements(input_shape(), true)]
   [[nodiscard]] std::span<float> input() {
     mien_shape shape = {};
     float* values = mien_network_input(network_.get(), &shape);
@@ -95,15 +100,18 @@ class Network {
   }
   /// See mien_network_run.
   void run() { detail::ignore(mien_network_run(network_.get())); }
+  /// See mien_network_output_count.
   [[nodiscard]] std::int32_t output_count() const {
     return mien_network_output_count(network_.get());
   }
+  /// See mien_network_output.
   [[nodiscard]] TensorShape output_shape(std::int32_t index) const {
     mien_shape shape = {};
     mien_network_output(network_.get(), index, &shape);
     return shape;
   }
   /// See mien_network_output.
+  /// @return [map_elements(output_shape(index), false)]
   [[nodiscard]] std::span<const float> output(std::int32_t index) const {
     mien_shape shape = {};
     const float* values = mien_network_output(network_.get(), index, &shape);
@@ -111,7 +119,9 @@ class Network {
   }
   /// See mien_network_reset.
   void reset() { mien_network_reset(network_.get()); }
+  /// See mien_network_step_count.
   [[nodiscard]] std::int32_t step_count() const { return mien_network_step_count(network_.get()); }
+  /// The layers first .. first + count - 1 of a network, from 0.
   struct StepLayers {
     std::int32_t first = 0, count = 0;
   };
@@ -126,6 +136,7 @@ class Network {
   /// @}
 
   explicit operator bool() const { return network_ != nullptr; }
+  /// @return nullptr if empty
   [[nodiscard]] mien_network* get() const { return network_.get(); }
 
  private:
@@ -167,6 +178,7 @@ struct LayerInfo : mien_layer_info {
 /// A key and its value.
 struct MetadataInfo : mien_metadata_info {
   MetadataInfo() : mien_metadata_info() { struct_size = sizeof(mien_metadata_info); }
+  /// @return the value, UTF-8
   [[nodiscard]] std::string_view text() const { return {value, value_bytes}; }
 };
 
@@ -175,8 +187,8 @@ struct ConstantInfo : mien_constant_info {
   ConstantInfo() : mien_constant_info() { struct_size = sizeof(mien_constant_info); }
 };
 
-/// The content of weights, which must outlive this object. Indices outside their range give empty
-/// infos.
+/// The content of weights, which must outlive this object: see mien_weights_network, _layer,
+/// _metadata and _constant. Indices outside their range give empty infos.
 class WeightsContent {
  public:
   explicit WeightsContent(const Weights& weights) : weights_(weights.get()) {}

@@ -72,9 +72,9 @@ extern "C" {
 
 #define MIEN_API_VERSION 0x00000100 /**< 0x00XXYYZZ: major, minor, patch */
 
-#define MIEN_CONTROL_COUNT 52
-#define MIEN_LANDMARK_COUNT 175
-#define MIEN_MAX_STAGES 16
+#define MIEN_CONTROL_COUNT 52   /**< values of mien_control */
+#define MIEN_LANDMARK_COUNT 175 /**< points of a face */
+#define MIEN_MAX_STAGES 16      /**< size of mien_result.stage_ns; MIEN_STAGE_COUNT are used */
 
 /** Alignment in bytes of the memory of mien_tracker_create_in and mien_network_create_in, and of
  *  weight files that are used without a copy. */
@@ -82,10 +82,11 @@ extern "C" {
 
 /* Status --------------------------------------------------------------------------------------- */
 
+/** The outcome of a call: MIEN_OK, or a negative number that names the error. */
 typedef enum mien_status {
   MIEN_OK = 0,
   /* arguments */
-  MIEN_ERROR_NULL_ARGUMENT = -1,
+  MIEN_ERROR_NULL_ARGUMENT = -1,    /**< a required pointer is NULL */
   MIEN_ERROR_STRUCT_SIZE = -2,      /**< struct_size does not cover the required fields */
   MIEN_ERROR_OUT_OF_RANGE = -3,     /**< a value is outside its documented range, or NaN */
   MIEN_ERROR_ALIGNMENT = -4,        /**< memory or samples are misaligned */
@@ -138,11 +139,11 @@ typedef enum mien_status {
   MIEN_ERROR_UNSUPPORTED_LAYOUT = -44, /**< a layer other than a convolution reads the image */
   MIEN_ERROR_TOO_LARGE = -45,          /**< the network's maps are too large for this input */
   /* stream */
-  MIEN_ERROR_IMAGE_FORMAT = -60, /**< unknown mien_image_format or mien_yuv_matrix */
-  MIEN_ERROR_IMAGE_SIZE = -61,   /**< width, height or pixel_aspect out of range */
-  MIEN_ERROR_IMAGE_STRIDE = -62, /**< rows or chroma samples overlap */
-  MIEN_ERROR_IMAGE_PLANE = -63,  /**< a plane of the format is NULL */
-  MIEN_ERROR_IMAGE_ROTATION = -64,
+  MIEN_ERROR_IMAGE_FORMAT = -60,     /**< unknown mien_image_format or mien_yuv_matrix */
+  MIEN_ERROR_IMAGE_SIZE = -61,       /**< width, height or pixel_aspect out of range */
+  MIEN_ERROR_IMAGE_STRIDE = -62,     /**< rows or chroma samples overlap */
+  MIEN_ERROR_IMAGE_PLANE = -63,      /**< a plane of the format is NULL */
+  MIEN_ERROR_IMAGE_ROTATION = -64,   /**< rotation is not 0, 90, 180 or 270 degrees */
   MIEN_ERROR_IMAGE_CAMERA = -65,     /**< focal length or principal point negative or not finite */
   MIEN_ERROR_AUDIO_FORMAT = -66,     /**< unknown mien_sample_format */
   MIEN_ERROR_AUDIO_RATE = -67,       /**< sample_rate outside 8000..192000 Hz */
@@ -171,7 +172,7 @@ MIEN_API uint32_t mien_version_api(void);
 
 /* Error details -------------------------------------------------------------------------------- */
 
-#define MIEN_MAX_NAME_BYTES 63 /**< of a name in a weight file, without the terminating 0 */
+#define MIEN_MAX_NAME_BYTES 63 /**< bytes of a name in a weight file, without the terminating 0 */
 
 /* Bits of mien_error_detail.known. */
 #define MIEN_DETAIL_OFFSET 0x1u   /**< offset */
@@ -191,9 +192,9 @@ typedef struct mien_error_detail {
   /** Static name of a member of a configuration or of a field in docs/format.md; NULL: none. */
   const char* field;
   uint64_t offset;     /**< byte in the file; of packed content: in the unpacked file */
-  double got;          /**< value of the field */
-  double expected_min; /**< allowed values: expected_min..expected_max */
-  double expected_max;
+  double got;          /**< value of the field, in its unit */
+  double expected_min; /**< lowest allowed value of the field */
+  double expected_max; /**< highest allowed value */
   char name[MIEN_MAX_NAME_BYTES + 1]; /**< of the network or constant; empty: none */
   uint32_t reserved[8];
 } mien_error_detail;
@@ -238,7 +239,7 @@ MIEN_API size_t mien_error_message(const mien_error_detail* detail, char* text, 
 /** Not a tier: allows fused layers, which are faster. Without it each layer runs separately, with
  *  the same results except for rounding. */
 #define MIEN_CPU_FUSED 0x80000000u
-#define MIEN_CPU_ALL 0xFFFFFFFFu
+#define MIEN_CPU_ALL 0xFFFFFFFFu /**< all tiers and MIEN_CPU_FUSED */
 
 /** Tiers that this build contains and this CPU can run.
  *  @return MIEN_CPU_* bits; always with MIEN_CPU_REF, unless the build excludes it (MIEN_TRIM_REF)
@@ -465,18 +466,18 @@ typedef struct mien_image {
   uint32_t struct_size;
   int32_t format;        /**< mien_image_format */
   int32_t width;         /**< pixels of the buffer, before rotation; 1..MIEN_MAX_IMAGE_SIDE */
-  int32_t height;        /**< the same */
+  int32_t height;        /**< pixels of the buffer, before rotation; 1..MIEN_MAX_IMAGE_SIDE */
   const void* planes[3]; /**< first byte of the top row; unused planes are ignored */
-  /** From the start of a row to the start of the row below; negative for bottom-up memory. */
+  /** Bytes from the start of a row to that of the row below; negative for bottom-up memory. */
   int32_t row_stride_bytes[3];
-  int32_t chroma_pixel_stride_bytes; /**< I420: from one chroma sample to the next; 0 means 1 */
+  int32_t chroma_pixel_stride_bytes; /**< I420: bytes from a chroma sample to the next; 0 means 1 */
   int32_t rotation;                  /**< clockwise rotation to upright: 0, 90, 180, 270 degrees */
   int32_t mirrored;      /**< not 0: the upright image mirrors the scene (selfie camera) */
   int32_t full_range;    /**< GRAY8 and YUV; not 0: luma 0..255; 0: video range, luma 16..235 */
   float focal_length_px; /**< pixels of the upright image; 0: unknown, horizontal_fov applies */
-  float principal_x;     /**< principal point in the upright image; x = y = 0: the centre */
-  float principal_y;
-  int32_t yuv_matrix; /**< YUV: mien_yuv_matrix */
+  float principal_x;     /**< principal point, pixels of the upright image; x = y = 0: the centre */
+  float principal_y;     /**< likewise, from the top */
+  int32_t yuv_matrix;    /**< YUV: mien_yuv_matrix */
   /** Region of interest: x, y, width, height in pixels of the buffer, before rotation; all 0: the
    *  whole image. The tracker reads nothing outside it and behaves as if the image were cropped to
    *  it, but results, focal length and principal point stay in pixels of the whole upright image.
@@ -497,6 +498,7 @@ MIEN_API void mien_image_default(mien_image* image);
 
 #define MIEN_MAX_AUDIO_CHANNELS 8
 
+/** Types of audio samples, in the byte order of the machine. */
 typedef enum mien_sample_format {
   MIEN_SAMPLES_FLOAT32 = 0, /**< full scale is -1..1 */
   MIEN_SAMPLES_INT16 = 1    /**< full scale is -32768..32767 */
@@ -527,6 +529,7 @@ MIEN_API void mien_audio_default(mien_audio* audio);
 typedef struct mien_allocator {
   /** Returns at least `size_bytes` aligned to `alignment_bytes` (a power of two), or NULL. */
   void* (*allocate)(void* user, size_t size_bytes, size_t alignment_bytes);
+  /** Releases memory of `allocate`; never NULL. */
   void (*release)(void* user, void* memory);
   void* user; /**< first argument of both */
 } mien_allocator;
@@ -551,7 +554,7 @@ typedef struct mien_weights_config {
    *  or unpacked. */
   int32_t copy;
   const void* files[MIEN_MAX_WEIGHT_FILES]; /**< any alignment; NULL entries are ignored */
-  size_t file_bytes[MIEN_MAX_WEIGHT_FILES];
+  size_t file_bytes[MIEN_MAX_WEIGHT_FILES]; /**< sizes of `files`, bytes */
   mien_allocator allocator; /**< default: both callbacks NULL, which selects the C library's */
   uint32_t reserved[8];
 } mien_weights_config;
@@ -639,7 +642,7 @@ typedef struct mien_tracker_config {
    *  level 1). An image without a face then costs about as much as two images with one, four at
    *  level 1. Thorough detection finds faces that are hard to see and takes the most images: it
    *  applies to detections on a single image, and to every fourth one of the others in a row
-   *  without success. Half of these others are at a roll. */
+   *  without success. Half of these others search for faces at a roll other than 0. */
   int32_t search_interval;
 
   /** Automatic level of detail: average time budget of a frame with a face, in ms; 0.01..1e6;
@@ -836,10 +839,11 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_mix(mien_tracker* tracker, 
 
 /* Result --------------------------------------------------------------------------------------- */
 
+/** What a tracker knows about a face on a frame. */
 typedef enum mien_face_status {
   /** No face since create or reset: box, landmarks, pose and controls not driven by audio are 0. */
   MIEN_FACE_SEARCHING = 0,
-  MIEN_FACE_TRACKING = 1,
+  MIEN_FACE_TRACKING = 1, /**< the face is tracked; it may have been missed on this frame */
   /** The face is gone: box, landmarks and pose keep their last values; controls predicted from
    *  video fade to 0 with a time constant of 0.25 s. */
   MIEN_FACE_LOST = 2
@@ -850,6 +854,7 @@ typedef enum mien_face_status {
  *  @return static string: "searching", "tracking", "lost"; NULL for other numbers */
 MIEN_API const char* mien_face_status_name(int32_t status);
 
+/** Parts of the work on a frame: indices into mien_result.stage_ns. */
 typedef enum mien_stage {
   MIEN_STAGE_PROPOSAL = 0, /**< detection */
   MIEN_STAGE_WARP = 1,     /**< image to crop */
@@ -892,10 +897,12 @@ typedef struct mien_result {
 
   float box[4]; /**< x, y, width, height of the whole face in pixels of the upright image */
 
-  float rotation[4];    /**< head to camera: unit quaternion x, y, z, w with w >= 0 */
-  float pitch;          /**< radians, R = Ry(yaw) Rx(pitch) Rz(roll); positive: looks down */
-  float yaw;            /**< radians; positive: turns to the subject's left */
-  float roll;           /**< radians; right-hand rule about z */
+  float rotation[4]; /**< head to camera: unit quaternion x, y, z, w with w >= 0 */
+  /** Radians, -pi/2..pi/2, with the rotation R = Ry(yaw) Rx(pitch) Rz(roll); positive: looks down.
+   */
+  float pitch;
+  float yaw;            /**< radians, -pi..pi; positive: turns to the subject's left */
+  float roll;           /**< radians, -pi..pi; right-hand rule about z */
   float translation[3]; /**< metres: the head's origin in camera space */
 
   float controls[MIEN_CONTROL_COUNT]; /**< 0..1, from video and audio; 0 where not supported */
@@ -908,8 +915,8 @@ typedef struct mien_result {
   uint64_t proposal_runs; /**< detections in the whole image that were started */
   uint64_t encoder_runs;  /**< runs of BaseNet and HiFiNet */
 
-  uint64_t
-      stage_ns[MIEN_MAX_STAGES]; /**< time in each mien_stage on this frame; 0 without a clock */
+  /** Nanoseconds in each mien_stage on this frame; 0 without a clock. */
+  uint64_t stage_ns[MIEN_MAX_STAGES];
 
   /** Number of the face, from 1 in the order of detection; 0 before the first. A face that is found
    *  again within 2 s near the place where it was lost keeps its id. */
@@ -1011,7 +1018,7 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_load_neutral(mien_tracker* trac
  *  slow. */
 typedef struct mien_network mien_network;
 
-/** Shape of a map; a vector is {1, 1, channels}. */
+/** Shape of a map in rows, columns and channels, each at least 1; a vector is {1, 1, channels}. */
 typedef struct mien_shape {
   int32_t height, width, channels;
 } mien_shape;
@@ -1025,7 +1032,8 @@ typedef struct mien_network_config {
   uint32_t cpu_mask;
   const mien_weights* weights;
   const char* name; /**< of a network of the weights; default NULL: the first */
-  /** Size of the input, for networks that accept several; default 0, 0: the declared size. */
+  /** Size of the input in rows and columns, for networks that accept several; default 0, 0: the
+   *  declared size. */
   int32_t height, width;
   mien_allocator allocator; /**< default: both callbacks NULL, which selects the C library's */
   uint32_t reserved[8];
@@ -1132,33 +1140,33 @@ typedef struct mien_network_info {
   uint32_t struct_size;
   int32_t file;                       /**< index in mien_weights_config.files */
   char name[MIEN_MAX_NAME_BYTES + 1]; /**< terminated */
-  mien_shape input;
-  int32_t any_size; /**< not 0: also accepts larger inputs */
-  int32_t layers;
-  int32_t outputs;
-  uint64_t parameters;
-  uint64_t macs;          /**< multiply-accumulates per run on the declared input */
-  uint64_t weight_bytes;  /**< in the file */
-  uint64_t session_bytes; /**< input, outputs and state of a network with the default config */
-  uint64_t arena_bytes;   /**< its intermediate maps */
+  mien_shape input;                   /**< the declared input */
+  int32_t any_size;                   /**< not 0: also accepts larger inputs */
+  int32_t layers;                     /**< number of layers */
+  int32_t outputs;                    /**< number of outputs */
+  uint64_t parameters;                /**< number of weights, biases and slopes */
+  uint64_t macs;                      /**< multiply-accumulates per run on the declared input */
+  uint64_t weight_bytes;              /**< bytes of the parameters in the file */
+  uint64_t session_bytes; /**< bytes of input, outputs and state, with the default configuration */
+  uint64_t arena_bytes;   /**< bytes of intermediate maps, likewise */
   uint32_t reserved[8];
 } mien_network_info;
 
 /** A layer. */
 typedef struct mien_layer_info {
   uint32_t struct_size;
-  int32_t input;        /**< 0: the network's input; k: the output of the k-th layer, from 1 */
-  int32_t second_input; /**< likewise; -1: none */
-  mien_shape output;
+  int32_t input;          /**< 0: the network's input; k: the output of the k-th layer, from 1 */
+  int32_t second_input;   /**< likewise; -1: none */
+  mien_shape output;      /**< for the declared input */
   const char* op;         /**< static string: "conv2d", ... */
   const char* activation; /**< static string: "none", "relu", ... */
   int32_t kernel[2];      /**< rows, columns; 0 without a window */
-  int32_t stride[2];
-  int32_t padding[4];    /**< top, left, bottom, right; of a slice: what it removes */
-  int32_t first_channel; /**< slice only */
-  float input_bound;     /**< pointwise with 8-bit inputs: their largest magnitude; else 0 */
-  uint64_t parameters;
-  uint64_t macs; /**< multiply-accumulates per run on the declared input */
+  int32_t stride[2];      /**< rows, columns */
+  int32_t padding[4];     /**< top, left, bottom, right; of a slice: what it removes */
+  int32_t first_channel;  /**< slice only */
+  float input_bound;      /**< pointwise with 8-bit inputs: their largest magnitude; else 0 */
+  uint64_t parameters;    /**< number of weights, biases and slopes */
+  uint64_t macs;          /**< multiply-accumulates per run on the declared input */
   uint32_t reserved[8];
 } mien_layer_info;
 
@@ -1168,7 +1176,7 @@ typedef struct mien_metadata_info {
   int32_t file;                      /**< index in mien_weights_config.files */
   char key[MIEN_MAX_NAME_BYTES + 1]; /**< terminated */
   const char* value;                 /**< [value_bytes], UTF-8, not terminated */
-  size_t value_bytes;
+  size_t value_bytes;                /**< length of `value` in bytes */
   uint32_t reserved[8];
 } mien_metadata_info;
 

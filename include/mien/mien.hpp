@@ -61,7 +61,7 @@ struct Error : mien_error_detail {
 /// weights, which end with the last of them.
 class Weights {
  public:
-  /// See mien_weights_create.
+  /// See mien_weights_create, whose statuses it returns.
   /// @param files  content of .mien files, packed ones or bundles; at most MIEN_MAX_WEIGHT_FILES
   /// @param copy   whether to copy them; otherwise they must outlive the weights and all their
   /// users
@@ -77,6 +77,7 @@ class Weights {
     }
     return create(config, error);
   }
+  /// See mien_weights_create. An error leaves *this unchanged.
   [[nodiscard]] mien_status create(const mien_weights_config& config,
                                    mien_error_detail* error = nullptr) {
     mien_weights* created = nullptr;
@@ -88,6 +89,7 @@ class Weights {
   }
 
   explicit operator bool() const { return weights_ != nullptr; }
+  /// @return nullptr if empty
   [[nodiscard]] const mien_weights* get() const { return weights_.get(); }
 
  private:
@@ -104,6 +106,7 @@ struct LoadedWeights {
 /// Loads weights from files.
 /// @param path  a .mien file, a packed one, a bundle, or a folder, from which basenet.mien,
 ///              proposal.mien, hifinet.mien and audionet.mien are loaded if they are there
+/// @return the weights, or a message
 [[nodiscard]] inline LoadedWeights load_weights(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> paths = {path};
   std::error_code ignored;
@@ -154,6 +157,7 @@ struct Config : mien_tracker_config {
 /// A result, initialized by mien_result_default.
 struct Result : mien_result {
   Result() : mien_result() { mien_result_default(this); }
+  /// @return whether the face is tracked on this frame
   [[nodiscard]] bool has_face() const { return status == MIEN_FACE_TRACKING; }
   /// @param control  0..MIEN_CONTROL_COUNT - 1
   /// @return whether the control is predicted (supported_controls)
@@ -265,6 +269,7 @@ class Tracker {
   [[nodiscard]] mien_status reset() { return mien_tracker_reset(tracker_.get()); }
 
   explicit operator bool() const { return tracker_ != nullptr; }
+  /// @return nullptr if empty
   [[nodiscard]] mien_tracker* get() const { return tracker_.get(); }
 
  private:

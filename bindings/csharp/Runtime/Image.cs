@@ -30,9 +30,9 @@ namespace Mien
         public bool Bt709;
         /// <summary>Region of interest: x, y, width, height in pixels of the buffer before rotation; null: the whole image.</summary>
         public int[] Region;
-        /// <summary>In pixels of the upright image; 0: unknown.</summary>
+        /// <summary>Focal length in pixels of the upright image; 0: unknown.</summary>
         public float FocalLengthPx;
-        /// <summary>Principal point in the upright image; both 0: its centre.</summary>
+        /// <summary>Principal point in pixels of the upright image; both 0: its centre.</summary>
         public float PrincipalX, PrincipalY;
         /// <summary>Width of a pixel / its height, 0.1 to 10. Results are in square pixels: the upright image keeps its height.</summary>
         public float PixelAspect = 1f;

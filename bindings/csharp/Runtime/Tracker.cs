@@ -15,10 +15,11 @@ namespace Mien
         public bool Sound = true;
         /// <summary>Smooths controls, landmarks and pose while they hardly move.</summary>
         public bool Smoothing = true;
+        /// <summary>Average time budget of a frame with a face for Lod 0, ms, 0.01..1e6.</summary>
         public float BudgetMs = 10;
-        /// <summary>Horizontal field of view of the upright image, for images without a focal length, in radians; 0: 60 degrees.</summary>
+        /// <summary>Horizontal field of view of the upright image, for images without a focal length, in radians, 0.01..3.1; 0: 60 degrees.</summary>
         public float HorizontalFov;
-        /// <summary>Capacity of the audio queue (Tracker.QueueAudio), in samples of one channel; 0: no queue.</summary>
+        /// <summary>Capacity of the audio queue (Tracker.QueueAudio), in samples of one channel, 0..2^22; 0: no queue.</summary>
         public int AudioQueueSamples;
         /// <summary>Factor of the controls predicted from audio, 0..4.</summary>
         public float VoiceStrength = 1;
@@ -63,7 +64,7 @@ namespace Mien
             return Result();
         }
 
-        /// <summary>Outputs a frame without an image, for audio without video.</summary>
+        /// <summary>Outputs a frame without an image, for audio without video. time: seconds, on the clock of the images.</summary>
         public FaceResult Advance(double time)
         {
             Native.Check(Native.mien_tracker_advance(handle, Native.Nanoseconds(time)));
@@ -93,21 +94,22 @@ namespace Mien
             return faces;
         }
 
-        /// <summary>Processes interleaved samples of -1..1; time is the timestamp of the first, in seconds.</summary>
+        /// <summary>Processes interleaved samples of -1..1; time is the timestamp of the first, in seconds. sampleRate: 8000..192000 Hz;
+        /// channels: 1..8.</summary>
         public void PushAudio(float[] samples, double time, int sampleRate = 48000, int channels = 1)
         {
             UseAudio(samples, sampleRate, channels, raw =>
                 Native.Check(Native.mien_tracker_push_audio(handle, ref raw, Native.Nanoseconds(time))));
         }
 
-        /// <summary>Queues audio from another thread for the next frame; Status.AudioQueueFull if the queue is full.</summary>
+        /// <summary>Queues audio, as for PushAudio, from another thread for the next frame; Status.AudioQueueFull if the queue is full.</summary>
         public void QueueAudio(float[] samples, double time, int sampleRate = 48000, int channels = 1)
         {
             UseAudio(samples, sampleRate, channels, raw =>
                 Native.Check(Native.mien_tracker_queue_audio(handle, ref raw, Native.Nanoseconds(time))));
         }
 
-        /// <summary>Delays audio relative to the images, for audio pushed from now on.</summary>
+        /// <summary>Delays audio relative to the images by seconds, for audio pushed from now on.</summary>
         public void SetAudioOffset(double seconds)
         {
             Native.Check(Native.mien_tracker_set_audio_offset(handle, Native.Nanoseconds(seconds)));
@@ -119,6 +121,7 @@ namespace Mien
             Native.Check(Native.mien_tracker_set_mix(handle, Controls.Number(control), audio, video));
         }
 
+        /// <summary>Sets the level of detail, 0..4, from the next image on.</summary>
         public void SetLod(int lod)
         {
             Native.Check(Native.mien_tracker_set_lod(handle, lod));
@@ -130,7 +133,7 @@ namespace Mien
             Native.Check(Native.mien_tracker_capture_neutral(handle));
         }
 
-        /// <summary>The captured neutral values as a file.</summary>
+        /// <summary>The captured neutral values as a file of 448 bytes.</summary>
         public byte[] SaveNeutral()
         {
             var file = new byte[Native.NeutralBytes];

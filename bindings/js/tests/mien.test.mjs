@@ -125,10 +125,10 @@ test('only the region is read', () => {
 
 test('struct layouts match the header', {skip: !process.env.MIEN_C_API32 && 'MIEN_C_API32 is not set'}, () => {
   const facts = readFileSync(process.env.MIEN_C_API32, 'utf8').split('\n').map(line => line.split(' '));
-  const said = Object.fromEntries(facts.filter(([kind]) => kind === 'field' || kind === 'struct').map(([, name, value]) => [name, Number(value)]));
+  const declared = Object.fromEntries(facts.filter(([kind]) => kind === 'field' || kind === 'struct').map(([, name, value]) => [name, Number(value)]));
   for (const [struct, members] of Object.entries(fields)) {
-    assert.equal(structBytes[struct], said[`mien_${struct}`], struct);
-    for (const [member, [offset]] of Object.entries(members)) assert.equal(offset, said[`mien_${struct}.${member}`], `${struct}.${member}`);
+    assert.equal(structBytes[struct], declared[`mien_${struct}`], struct);
+    for (const [member, [offset]] of Object.entries(members)) assert.equal(offset, declared[`mien_${struct}.${member}`], `${struct}.${member}`);
   }
 });
 

@@ -29,8 +29,8 @@ const codeBlocks = (...page) => execFileSync(join(root, 'tests/docs/code_blocks.
 for (const [page, ...block] of [['README.md', 'js', '1'], ['bindings/js/README.md', 'js', '2']]) {
   test(`the example of ${page} tracks the face of an image`, () => {
     writeFileSync(join(project, 'example.mjs'), codeBlocks(page, ...block));
-    const said = execFileSync(process.execPath, ['example.mjs'], {cwd: project, encoding: 'utf8'});
-    assert.match(said, /^tracking jawOpen [01](\.\d+)?(e-\d+)?( -?\d\S*)?\n$/);
+    const output = execFileSync(process.execPath, ['example.mjs'], {cwd: project, encoding: 'utf8'});
+    assert.match(output, /^tracking jawOpen [01](\.\d+)?(e-\d+)?( -?\d\S*)?\n$/);
   });
 }
 

@@ -1,4 +1,4 @@
-"""The package's idea of the C interface is the header's: every struct's layout, every function, every status."""
+"""The package declares the C interface as the header does: every struct's layout, every function, every status."""
 import ctypes
 import re
 import shutil
@@ -19,11 +19,11 @@ def facts():
     """The facts of bindings/c_api.py by kind, {name: value}."""
     if shutil.which("clang") is None:
         pytest.skip("clang is not installed")
-    said = {}
+    declared = {}
     for line in subprocess.run([sys.executable, REPOSITORY / "bindings/c_api.py"], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, name, value = line.split()
-        said.setdefault(kind, {})[name] = int(value)
-    return said
+        declared.setdefault(kind, {})[name] = int(value)
+    return declared
 
 
 def test_struct_layouts_match_the_header(facts):

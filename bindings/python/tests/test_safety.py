@@ -96,7 +96,7 @@ def test_c_objects_cannot_be_copied(request, kind):
 
 
 def in_child(body):
-    """What a forked child ends with: 0 where all went well."""
+    """The exit status of a forked child that runs `body`: 0 without an exception."""
     child = os.fork()
     if child == 0:
         try:

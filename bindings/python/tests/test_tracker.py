@@ -248,14 +248,14 @@ def test_audio_moves_the_mouth_from_any_thread(clip):
 def test_audio_formats():
     sound = voice(0.5)
     stereo = np.stack([sound, sound], 1)
-    answers = []
+    runs = []
     for samples in (sound, stereo, np.asfortranarray(stereo), (sound * 32768).clip(-32768, 32767).astype(np.int16)):
         with mien.Tracker(1) as tracker:
             tracker.push_audio(samples, 0, 16000)
-            answers.append([tracker.advance(i / RATE).controls.array for i in range(12)])
-    np.testing.assert_array_equal(answers[0], answers[1])
-    np.testing.assert_array_equal(answers[0], answers[2])
-    np.testing.assert_allclose(answers[0], answers[3], atol=0.02)
+            runs.append([tracker.advance(i / RATE).controls.array for i in range(12)])
+    np.testing.assert_array_equal(runs[0], runs[1])
+    np.testing.assert_array_equal(runs[0], runs[2])
+    np.testing.assert_allclose(runs[0], runs[3], atol=0.02)
     with mien.Tracker(1) as tracker:
         with pytest.raises(TypeError, match="float32 or int16"):
             tracker.push_audio(sound.astype(np.float64), 0)

@@ -50,7 +50,7 @@ def _real(value: Any, name: str) -> float:
     raise _out_of_range(name, number, -_FLOAT_MAX, _FLOAT_MAX)
 
 
-def share(value: float, name: str) -> float:
+def unit_fraction(value: float, name: str) -> float:
     if 0 <= _real(value, name) <= 1:
         return value
     raise _out_of_range(name, value, 0, 1)

@@ -42,7 +42,8 @@ def track_file(
     Rows have the names, units and values of `mien track`'s CSV. Needs ffmpeg and ffprobe. The file is read while rows are taken: a damaged or truncated
     file raises MienError after its last valid row; other problems are warnings.
 
-    backward: track backward from a detection through the frames before it, up to 3 seconds. While no face is seen, rows are as late.
+    lod: level of detail, 1..4 or "auto". sound: whether to use audio. smoothing: smooths small changes.
+    backward: track backward from a detection through the frames before it, up to 3 seconds. While there is no face, rows are delayed by as much.
     audio_track: number of the audio track, from 1. rotation: clockwise rotation to upright in degrees, instead of the file's own.
     """
     if not Path(path).is_file():

@@ -114,7 +114,10 @@ class Pose(NamedTuple):
         return matrix
 
     def project(self, points: npt.ArrayLike, width: float, height: float, focal_length_px: float = 0.0) -> npt.NDArray[np.float64]:
-        """Points [n, 3] of head space as pixels [n, 2] of the upright image, which is not mirrored. 0: a field of view of 60 degrees."""
+        """Points [n, 3] of head space in metres, as pixels [n, 2] of the upright, unmirrored image.
+
+        width, height: of that image, pixels. focal_length_px: pixels; 0: a horizontal field of view of 60 degrees.
+        """
         focal = focal_length_px or width * math.sqrt(0.75)
         x, y, z = (np.asarray(points) @ self.matrix[:3, :3].T + self.translation).T
         return np.stack([width / 2 - focal * x / z, height / 2 + focal * y / z], 1)
@@ -139,10 +142,12 @@ class Result:
 
     @property
     def has_face(self) -> bool:
+        """Whether the face is tracked on this frame."""
         return bool(self._raw.status == FaceStatus.TRACKING)
 
     @property
     def time_s(self) -> float:
+        """Timestamp of the frame, seconds."""
         return float(self._raw.pts_ns) / 1e9
 
     @property
@@ -157,6 +162,7 @@ class Result:
 
     @property
     def face_probability(self) -> float:
+        """0..1, of the latest crop."""
         return float(self._raw.face_probability)
 
     @property
@@ -176,6 +182,7 @@ class Result:
 
     @property
     def controls(self) -> Controls:
+        """The 52 animation weights, 0..1."""
         return Controls(self._floats("controls", CONTROL_COUNT), int(self._raw.supported_controls))
 
     @property
@@ -184,12 +191,13 @@ class Result:
         return self._floats("landmarks", 2 * LANDMARK_COUNT).reshape(LANDMARK_COUNT, 2)
 
     def landmarks_of(self, group: LandmarkGroup) -> Floats:
-        """[n, 2]: the landmarks of a group, for example LandmarkGroup.LEFT_IRIS."""
+        """[n, 2]: the landmarks of a group, for example LandmarkGroup.LEFT_IRIS; x, y in pixels of the upright image."""
         indices = LandmarkGroup(group).landmarks
         return self.landmarks[indices.start : indices.stop]
 
     @property
     def pose(self) -> Pose:
+        """The head in camera space: metres and radians."""
         raw = self._raw
         return Pose(self._floats("rotation", 4), self._floats("translation", 3), raw.pitch, raw.yaw, raw.roll)
 

@@ -56,7 +56,10 @@ class _Facts(TypedDict):
 
 
 class Row(_Facts, total=False):
-    """A frame. Controls that the level of detail does not predict are absent; box and pose are NaN without a face."""
+    """A frame. Controls, 0..1, that the level of detail does not predict are absent; box and pose are NaN without a face.
+
+    Units are in the names: ms, radians, metres; x, y, w and h are pixels of the upright image; face_prob and vad are 0..1.
+    """
 
     eyeLookDownLeft: float
     eyeLookInLeft: float

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ._handle import Handle
 from ._library import MODELS, NEUTRAL_BYTES, Audio, Image, TrackerConfig, TrackerResult, function
-from ._numbers import nanoseconds, share
+from ._numbers import nanoseconds, unit_fraction
 from .errors import ImageRotationError, UnsupportedLodError, check, check_detail, new_detail
 from .result import Result
 from .vocabulary import CONTROL_NUMBERS
@@ -32,9 +32,10 @@ class Tracker(Handle):
     """Tracks faces in a stream of images and audio. One thread at a time may use it, except for queue_audio.
 
     lod: level of detail, 1 (fastest) to 4 (most accurate), or "auto": the highest within budget_ms per frame.
+    budget_ms: average time budget of a frame with a face for "auto", ms, 0.01 to 1e6.
     max_faces: 1..8. sound: whether to use audio. smoothing: smooths small changes of controls, landmarks and pose.
-    horizontal_fov: horizontal field of view of the upright image, radians; default 60 degrees.
-    audio_queue_samples: capacity of the audio queue (queue_audio), in samples of one channel; 0: no queue.
+    horizontal_fov: horizontal field of view of the upright image, radians, 0.01 to 3.1; default 60 degrees.
+    audio_queue_samples: capacity of the audio queue (queue_audio), in samples of one channel, 0 to 2^22; 0: no queue.
     voice_strength: factor of the controls predicted from audio, 0 to 4.
     models: other weights than the package's own: Weights, which trackers may share, or a folder or bundle.
     """
@@ -102,6 +103,9 @@ class Tracker(Handle):
             gaps (a part of a larger image) or be bottom-up (frame[::-1]); pixels of a row must be contiguous.
         time_s: timestamp of the image in seconds, on any clock.
         rotation: clockwise rotation to upright, degrees. mirrored: the image mirrors the scene (selfie camera).
+        full_range: grey and YUV: luma 0..255, otherwise 16..235. bt709: YUV uses BT.709, otherwise BT.601.
+        focal_length_px: pixels of the upright image; 0: unknown, horizontal_fov applies.
+        principal_point: x, y in pixels of the upright image; 0, 0: the centre.
         region: x, y, width, height in pixels of the frame; nothing outside it is read.
         pixel_aspect: width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright image keeps its height.
         """
@@ -125,7 +129,7 @@ class Tracker(Handle):
         return self.result()
 
     def advance(self, time_s: float) -> Result:
-        """Outputs a frame without an image, for audio without video."""
+        """Outputs a frame without an image, for audio without video. time_s: seconds, on the clock of the images."""
         check(function("mien_tracker_advance")(self._open(), nanoseconds(time_s)))
         return self.result()
 
@@ -148,24 +152,28 @@ class Tracker(Handle):
         return Result(raw)
 
     def push_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
-        """Processes float32 (-1..1) or int16 samples, [n] or [n, channels]; time_s is the timestamp of the first."""
+        """Processes float32 (-1..1) or int16 samples, [n] or [n, channels of 1..8]; time_s is the timestamp of the first, in seconds.
+
+        sample_rate: 8000..192000 Hz.
+        """
         check(function("mien_tracker_push_audio")(self._open(), byref(_audio(samples, sample_rate)), nanoseconds(time_s)))
 
     def queue_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
-        """Queues audio from another thread for the next frame; errors.AudioQueueFullError if the queue is full."""
+        """Queues audio, as for push_audio, from another thread for the next frame; AudioQueueFullError if the queue is full."""
         check(function("mien_tracker_queue_audio")(self._open(), byref(_audio(samples, sample_rate)), nanoseconds(time_s)))
 
     def set_audio_offset(self, seconds: float) -> None:
-        """Delays audio relative to the images, for audio pushed from now on."""
+        """Delays audio relative to the images by `seconds`, for audio pushed from now on."""
         check(function("mien_tracker_set_audio_offset")(self._open(), nanoseconds(seconds, "seconds")))
 
     def set_mix(self, control: str, audio: float, video: float) -> None:
         """Weights of audio and video for a control during speech, each 0..1."""
         if control not in CONTROL_NUMBERS:
             raise ValueError(f"control: unknown (got {control!r}, expected one of mien.CONTROL_NAMES)")
-        check(function("mien_tracker_set_mix")(self._open(), CONTROL_NUMBERS[control], share(audio, "audio"), share(video, "video")))
+        check(function("mien_tracker_set_mix")(self._open(), CONTROL_NUMBERS[control], unit_fraction(audio, "audio"), unit_fraction(video, "video")))
 
     def set_lod(self, lod: Lod) -> None:
+        """Sets the level of detail, 1..4 or "auto", from the next image on."""
         check(function("mien_tracker_set_lod")(self._open(), level(lod)))
 
     def calibrate(self) -> None:
@@ -173,13 +181,14 @@ class Tracker(Handle):
         check(function("mien_tracker_capture_neutral")(self._open()))
 
     def save_neutral(self) -> bytes:
-        """The captured neutral values as a file."""
+        """The captured neutral values as a file of 448 bytes."""
         data = (ctypes.c_char * NEUTRAL_BYTES)()
         captured = c_uint32()
         check(function("mien_tracker_save_neutral")(self._open(), data, NEUTRAL_BYTES, byref(captured)))
         return bytes(data)
 
     def load_neutral(self, data: bytes) -> None:
+        """Restores saved neutral values."""
         check(function("mien_tracker_load_neutral")(self._open(), data, len(data)))
 
     def reset(self) -> None:

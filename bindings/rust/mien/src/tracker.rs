@@ -39,11 +39,11 @@ pub struct Options {
     pub audio: bool,
     /// Smooths controls, landmarks and pose while they hardly move.
     pub smoothing: bool,
-    /// For [`Lod::Auto`].
+    /// Average time budget of a frame with a face for [`Lod::Auto`], ms, 0.01..1e6.
     pub budget_ms: f32,
-    /// Horizontal field of view of the upright image, for images without a focal length, in radians; `None`: 60 degrees.
+    /// Horizontal field of view of the upright image, for images without a focal length, in radians, 0.01..3.1; `None`: 60 degrees.
     pub horizontal_fov: Option<f32>,
-    /// Capacity of the audio queue ([`Tracker::audio_queue`]), in samples of one channel; 0: no queue.
+    /// Capacity of the audio queue ([`Tracker::audio_queue`]), in samples of one channel, 0..2^22; 0: no queue.
     pub audio_queue_samples: i32,
     /// Factor of the controls predicted from audio, 0..4.
     pub voice_strength: f32,
@@ -124,7 +124,7 @@ impl Tracker {
         self.result()
     }
 
-    /// Outputs a frame without an image, for audio without video.
+    /// Outputs a frame without an image, for audio without video. `time_s`: seconds, on the clock of the images.
     pub fn advance(&mut self, time_s: f64) -> Result<FaceResult, Error> {
         check(unsafe { mien_sys::mien_tracker_advance(self.handle.raw, nanoseconds(time_s)?) })?;
         self.result()
@@ -170,7 +170,7 @@ impl Tracker {
         check(unsafe { mien_sys::mien_tracker_set_mix(self.handle.raw, number as i32, audio, video) })
     }
 
-    /// Takes effect from the next image on.
+    /// Sets the level of detail from the next image on.
     pub fn set_lod(&mut self, lod: Lod) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_set_lod(self.handle.raw, lod.number()) })
     }
@@ -180,7 +180,7 @@ impl Tracker {
         check(unsafe { mien_sys::mien_tracker_capture_neutral(self.handle.raw) })
     }
 
-    /// The captured neutral values as a file.
+    /// The captured neutral values as a file of 448 bytes.
     pub fn save_neutral(&self) -> Result<Vec<u8>, Error> {
         let mut file = vec![0; mien_sys::MIEN_NEUTRAL_BYTES];
         let place = file.as_mut_ptr().cast();

@@ -1,8 +1,10 @@
 import CMien
 
+/// Status of a face.
 public enum FaceStatus: Int32 {
   /// No face since the start or reset.
   case searching = 0
+  /// The face is tracked.
   case tracking
   /// The face is lost: it keeps its last position, and its controls fade.
   case lost
@@ -14,7 +16,7 @@ public struct Pose {
   public let rotation: SIMD4<Float>
   /// Metres.
   public let translation: SIMD3<Float>
-  /// Radians. Positive: looks down; turns to the subject's left; right-hand rule about z.
+  /// Radians. Positive pitch looks down, positive yaw turns to the subject's left; roll is about z by the right-hand rule.
   public let pitch, yaw, roll: Float
 }
 
@@ -30,6 +32,7 @@ public struct FaceResult {
   public var faceId: UInt32 { raw.face_id }
   /// The level of detail of this frame, 1...4.
   public var lod: Int32 { raw.lod }
+  /// 0...1, of the latest crop.
   public var faceProbability: Float { raw.face_probability }
   /// 0...1: voice activity; 0 without audio.
   public var voiceActivity: Float { raw.voice_activity }
@@ -37,6 +40,7 @@ public struct FaceResult {
   public var isCapturingNeutral: Bool { raw.flags & 0x10 != 0 }
   /// x, y, width, height in pixels of the upright image.
   public var box: SIMD4<Float> { SIMD4(raw.box.0, raw.box.1, raw.box.2, raw.box.3) }
+  /// 52 animation weights, 0...1.
   public var controls: Controls { Controls(array: floats(of: raw.controls), supportedBits: raw.supported_controls) }
 
   /// 175 of them, in pixels of the upright image.
@@ -48,6 +52,7 @@ public struct FaceResult {
   /// The landmarks of a group, in pixels of the upright image.
   public func landmarks(of group: LandmarkGroup) -> [SIMD2<Float>] { Array(landmarks[group.range]) }
 
+  /// The head in camera space.
   public var pose: Pose {
     let (r, t) = (raw.rotation, raw.translation)
     return Pose(

@@ -4,7 +4,8 @@ import CMien
 public struct Image {
   var raw = mien_image()
 
-  /// Planes as in `mien_image` of `mien.h`; must stay valid during `Tracker.track`.
+  /// Width and height in pixels, 1...16384; for each plane its address and bytes per row, as in `mien_image` of `mien.h`;
+  /// `chromaPixelStride`: I420: bytes between samples of U or V, 0 means 1. Planes must stay valid during `Tracker.track`.
   public init(
     format: mien_image_format, width: Int, height: Int, planes: [UnsafeRawPointer?], rowBytes: [Int], chromaPixelStride: Int = 0
   ) {
@@ -54,7 +55,7 @@ public struct Image {
     set { raw.pixel_aspect = newValue }
   }
 
-  /// In pixels of the upright image; 0: unknown.
+  /// Focal length in pixels of the upright image; 0: unknown.
   public var focalLength: Float {
     get { raw.focal_length_px }
     set { raw.focal_length_px = newValue }

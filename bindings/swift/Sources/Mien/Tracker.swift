@@ -11,10 +11,11 @@ public struct TrackerOptions {
   public var sound = true
   /// Smooths controls, landmarks and pose while they hardly move.
   public var smoothing = true
+  /// Average time budget of a frame with a face for `lod` 0, ms, 0.01...1e6.
   public var budgetMs: Float = 10
-  /// Horizontal field of view of the upright image, for images without a focal length, in radians; nil: 60 degrees.
+  /// Horizontal field of view of the upright image, for images without a focal length, in radians, 0.01...3.1; nil: 60 degrees.
   public var horizontalFov: Float?
-  /// Capacity of the audio queue (`Tracker.queueAudio`), in samples of one channel; 0: no queue.
+  /// Capacity of the audio queue (`Tracker.queueAudio`), in samples of one channel, 0...2^22; 0: no queue.
   public var audioQueueSamples: Int32 = 0
   /// Factor of the controls predicted from audio, 0...4.
   public var voiceStrength: Float = 1
@@ -55,7 +56,7 @@ public final class Tracker {
     return try result()
   }
 
-  /// Outputs a frame without an image, for audio without video.
+  /// Outputs a frame without an image, for audio without video. `time`: seconds, on the clock of the images.
   public func advance(to time: Double) throws -> FaceResult {
     try check(mien_tracker_advance(handle, nanoseconds(time)))
     return try result()
@@ -79,19 +80,19 @@ public final class Tracker {
     }
   }
 
-  /// Processes interleaved samples of -1...1; `time` is the timestamp of the first, in seconds.
+  /// Processes interleaved samples of -1...1; `time` is the timestamp of the first, in seconds. `channels`: 1...8; `sampleRate`: 8000...192000 Hz.
   public func pushAudio(_ samples: UnsafeBufferPointer<Float>, channels: Int32 = 1, sampleRate: Int32 = 48000, at time: Double) throws {
     var audio = described(samples, channels, sampleRate)
     try check(mien_tracker_push_audio(handle, &audio, nanoseconds(time)))
   }
 
-  /// Queues audio from a real-time thread for the next frame. Neither waits nor allocates, except to throw if the queue is full.
+  /// Queues audio, as for `pushAudio`, from a real-time thread for the next frame. Neither waits nor allocates, except to throw if the queue is full.
   public func queueAudio(_ samples: UnsafeBufferPointer<Float>, channels: Int32 = 1, sampleRate: Int32 = 48000, at time: Double) throws {
     var audio = described(samples, channels, sampleRate)
     try check(mien_tracker_queue_audio(handle, &audio, nanoseconds(time)))
   }
 
-  /// Delays audio relative to the images, for audio pushed from now on.
+  /// Delays audio relative to the images by `seconds`, for audio pushed from now on.
   public func setAudioOffset(_ seconds: Double) throws {
     try check(mien_tracker_set_audio_offset(handle, nanoseconds(seconds)))
   }
@@ -102,18 +103,20 @@ public final class Tracker {
     try check(mien_tracker_set_mix(handle, Int32(number), audio, video))
   }
 
+  /// Sets the level of detail, 0...4, from the next image on.
   public func setLod(_ lod: Int32) throws { try check(mien_tracker_set_lod(handle, lod)) }
 
   /// Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames.
   public func calibrate() throws { try check(mien_tracker_capture_neutral(handle)) }
 
-  /// The captured neutral values as a file.
+  /// The captured neutral values as a file of 448 bytes.
   public func saveNeutral() throws -> Data {
     var file = [UInt8](repeating: 0, count: Int(MIEN_NEUTRAL_BYTES))
     try check(mien_tracker_save_neutral(handle, &file, file.count, nil))
     return Data(file)
   }
 
+  /// Restores saved neutral values.
   public func loadNeutral(_ file: Data) throws {
     let bytes = [UInt8](file)
     try check(mien_tracker_load_neutral(handle, bytes, bytes.count))

@@ -38,7 +38,7 @@ public enum LandmarkGroup: Int32, CaseIterable {
   }
 }
 
-/// 52 animation weights, 0..1: `controls["jawOpen"]` and `controls[.jawOpen]` return one of them.
+/// 52 animation weights, 0...1: `controls["jawOpen"]` and `controls[.jawOpen]` return one of them.
 public struct Controls {
   public static let names = Vocabulary.arkit.names
 
@@ -58,7 +58,7 @@ public struct Controls {
     Set(Controls.names.enumerated().filter { supportedBits >> UInt64($0.offset) & 1 != 0 }.map { $0.element })
   }
 
-  /// The controls in another vocabulary, in the order of its names.
+  /// The controls in another vocabulary, 0...1, in the order of its names.
   public func to(_ vocabulary: Vocabulary) throws -> [Float] {
     var values = [Float](repeating: 0, count: Int(mien_vocabulary_size(vocabulary.rawValue)))
     try check(mien_vocabulary_values(vocabulary.rawValue, array, &values, Int32(values.count)))

@@ -31,7 +31,7 @@ public final class FaceResult {
         return status() == Status.TRACKING;
     }
 
-    /** Timestamp of the frame. */
+    /** Timestamp of the frame, nanoseconds. */
     public long timeNs() {
         return longs[Native.TIME_NS];
     }

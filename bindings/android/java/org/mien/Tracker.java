@@ -21,10 +21,11 @@ public final class Tracker implements AutoCloseable {
         public boolean sound = true;
         /** Smooths controls, landmarks and pose while they hardly move. */
         public boolean smoothing = true;
+        /** Average time budget of a frame with a face for lod 0, ms, 0.01..1e6. */
         public float budgetMs = 10;
-        /** Horizontal field of view of the upright image, for images without a focal length, in radians; 0: 60 degrees. */
+        /** Horizontal field of view of the upright image, for images without a focal length, in radians, 0.01..3.1; 0: 60 degrees. */
         public float horizontalFov = 0;
-        /** Capacity of the audio queue (queueAudio), in samples of one channel; 0: no queue. */
+        /** Capacity of the audio queue (queueAudio), in samples of one channel, 0..2^22; 0: no queue. */
         public int audioQueueSamples = 0;
         /** Factor of the controls predicted from audio, 0..4. */
         public float voiceStrength = 1;
@@ -49,14 +50,14 @@ public final class Tracker implements AutoCloseable {
         handle = made[0];
     }
 
-    /** Tracks one image and returns the result of the face with the lowest id. timeNs: timestamp of the image, on any clock. */
+    /** Tracks one image and returns the result of the face with the lowest id. timeNs: timestamp of the image in nanoseconds, on any clock. */
     public synchronized FaceResult track(Image image, long timeNs) {
         MienException.check(Native.pushVideo(open(), image.planes[0], image.planes[1], image.planes[2], image.array, image.integers(),
                 image.floats, timeNs));
         return result();
     }
 
-    /** Outputs a frame without an image, for audio without video. */
+    /** Outputs a frame without an image, for audio without video. timeNs: nanoseconds, on the clock of the images. */
     public synchronized FaceResult advance(long timeNs) {
         MienException.check(Native.advance(open(), timeNs));
         return result();
@@ -76,19 +77,19 @@ public final class Tracker implements AutoCloseable {
         return faces;
     }
 
-    /** Processes interleaved samples of -1..1; timeNs is the timestamp of the first. */
+    /** Processes interleaved samples of -1..1; timeNs is the timestamp of the first, nanoseconds. channels: 1..8; sampleRate: 8000..192000 Hz. */
     public synchronized void pushAudio(float[] samples, int channels, int sampleRate, long timeNs) {
         MienException.check(Native.pushAudio(open(), samples, frames(samples, channels), channels, sampleRate, timeNs));
     }
 
-    /** Queues audio from another thread for the next frame; Status.AUDIO_QUEUE_FULL if the queue is full. */
+    /** Queues audio, as for pushAudio, from another thread for the next frame; Status.AUDIO_QUEUE_FULL if the queue is full. */
     public void queueAudio(float[] samples, int channels, int sampleRate, long timeNs) {
         synchronized (queue) {
             MienException.check(Native.queueAudio(open(), samples, frames(samples, channels), channels, sampleRate, timeNs));
         }
     }
 
-    /** Delays audio relative to the images, for audio pushed from now on. */
+    /** Delays audio relative to the images by offsetNs nanoseconds, for audio pushed from now on. */
     public synchronized void setAudioOffset(long offsetNs) {
         MienException.check(Native.setAudioOffset(open(), offsetNs));
     }
@@ -98,6 +99,7 @@ public final class Tracker implements AutoCloseable {
         MienException.check(Native.setMix(open(), Controls.number(control), audio, video));
     }
 
+    /** Sets the level of detail, 0..4, from the next image on. */
     public synchronized void setLod(int lod) {
         MienException.check(Native.setLod(open(), lod));
     }
@@ -107,13 +109,14 @@ public final class Tracker implements AutoCloseable {
         MienException.check(Native.captureNeutral(open()));
     }
 
-    /** The captured neutral values as a file. */
+    /** The captured neutral values as a file of 448 bytes. */
     public synchronized byte[] saveNeutral() {
         byte[] file = new byte[NEUTRAL_BYTES];
         MienException.check(Native.saveNeutral(open(), file));
         return file;
     }
 
+    /** Restores saved neutral values. */
     public synchronized void loadNeutral(byte[] file) {
         Objects.requireNonNull(file, "file");
         MienException.check(Native.loadNeutral(open(), file));
