@@ -16,7 +16,7 @@ using Quaternion = std::array<double, 4>;  // x, y, z, w; unit length
 // degrees). The quaternion need not have unit length, but must not be 0.
 [[nodiscard]] Angles angles(const Quaternion& q);
 
-// First b, then a.
+// Rotates by b, then by a.
 [[nodiscard]] Quaternion product(const Quaternion& a, const Quaternion& b);
 
 // Interpolates from a to b along the shorter arc; fraction 0..1.

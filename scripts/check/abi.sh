@@ -43,7 +43,7 @@ breaks() {  # old interface: prints the differences; succeeds if they break prog
       <<<"$report" | grep -qv "::reserved' changed:"
 }
 
-# Before its silence counts, it must notice that a member of a struct moved.
+# Checks that it detects a member of a struct that moved.
 moved=$build/moved.abi
 awk "/class-decl name='mien_result'/ { inside = 1 } inside && /data-member/ && ++n == 3 { sub(/layout-offset-in-bits='[0-9]+'/, \"layout-offset-in-bits='96'\") } /<\/class-decl>/ { inside = 0 } { print }" \
   "$baseline" >"$moved"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks that programs and shared library are hardened as distributions build theirs (scripts/package/hardening.cmake):
+# Checks that programs and shared library have the hardening of distributions (scripts/package/hardening.cmake):
 # position independent, no memory that is both writable and executable, read-only relocations, stack and buffer
 # checks, and on x86-64 landing pads for jumps. Reads the files themselves.
 # usage: scripts/check/hardening.sh BUILD_DIR      a Release build
@@ -37,7 +37,7 @@ for file in apps/mien/mien apps/conformance/mien-conformance tracker/libmien.so;
 done
 grep -qE '__[a-z]+_chk@' <<<"$(nm -D --undefined-only "$build/apps/mien/mien")" || { echo "$build/apps/mien/mien: no fortified functions" >&2; bad=1; }
 
-# A program has landing pads only if all its objects have them, including those of the distribution, so checks our objects.
+# A program has landing pads only if all its objects have them, including those of the distribution, so this checks mien's objects.
 if [ "$(uname -m)" = x86_64 ]; then
   while read -r object; do
     grep -q 'IBT, SHSTK' <<<"$(readelf -nW "$object" 2>/dev/null)" || { echo "$object: no landing pads" >&2; bad=1; }

@@ -172,7 +172,7 @@ def own_names(path):
 
 
 def renaming(path, names):
-    """Gives names of a file the file's, so that two files with the same may become one. None where there is nothing to do."""
+    """Renames file-local names so that they contain the file's name, and files with equal names can be joined. None if nothing changes."""
     if not names:
         return None
     stem = "_".join(path.relative_to(ROOT).with_suffix("").parts[-2:])
@@ -211,7 +211,7 @@ def joined(sources, replaced=None):
 
 
 def core_sources():
-    """Everything that is no tier's."""
+    """The sources that do not belong to a tier."""
     sources = [ROOT / "formats" / f"{name}.cpp" for name in FORMATS]
     sources += [path for part in ("kernels", "engine", "audio") for path in sorted((ROOT / part).glob("*.cpp"))]
     sources += sorted((ROOT / "tracker").rglob("*.cpp"))

@@ -22,8 +22,8 @@ IN_ZIG = {"libc++": "Apache-2.0 WITH LLVM-exception", "musl": "MIT", "mingw-w64"
 
 
 def debian_version(package):
-    said = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], capture_output=True, text=True)
-    return said.stdout if said.returncode == 0 and said.stdout else "NOASSERTION"
+    found = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], capture_output=True, text=True)
+    return found.stdout if found.returncode == 0 and found.stdout else "NOASSERTION"
 
 
 def zig_version():

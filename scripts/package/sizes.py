@@ -46,9 +46,9 @@ def run(*command):
 
 def zig():
     """Zig's environment and triples, from scripts/cross/zig_targets.sh."""
-    said = run("bash", "-c", '. scripts/cross/zig_targets.sh; install_zig >&2; echo "MIEN_ZIG=$MIEN_ZIG"; echo "CACHE=$ZIG_LOCAL_CACHE_DIR"; '
+    printed = run("bash", "-c", '. scripts/cross/zig_targets.sh; install_zig >&2; echo "MIEN_ZIG=$MIEN_ZIG"; echo "CACHE=$ZIG_LOCAL_CACHE_DIR"; '
                'for target in "${!ZIG_TARGETS[@]}"; do echo "$target=${ZIG_TARGETS[$target]}"; done')
-    values = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
+    values = dict(line.split("=", 1) for line in printed.splitlines() if "=" in line)
     os.environ.update(MIEN_ZIG=values["MIEN_ZIG"], ZIG_LOCAL_CACHE_DIR=values["CACHE"], ZIG_GLOBAL_CACHE_DIR=values["CACHE"])
     return values
 

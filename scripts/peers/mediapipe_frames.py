@@ -2,7 +2,8 @@
 """Times MediaPipe's face landmarker, with blendshapes and head pose, on the frames of a clip, as JSON.  usage:
 mediapipe_frames.py CLIP TASK_FILE
 
-It follows the face from frame to frame, as mien does. A process of one processor makes its threads one.
+It follows the face from frame to frame, as mien does. The process runs on one
+processor, so that its threads do not run in parallel.
 """
 import json
 import subprocess

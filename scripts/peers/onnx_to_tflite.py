@@ -86,10 +86,10 @@ class Writer:
         return self.operator(OPERATOR.ADD, [a, b], self.shape(a), schema.AddOptionsT(), OPTIONS.AddOptions)
 
     def clamp_to_six(self, x):
-        """As a part of the convolution that made x."""
-        made = self.graph.operators[-1]
-        assert list(made.outputs) == [x]
-        made.builtinOptions.fusedActivationFunction = ACTIVATION.RELU6
+        """Fuses the clamp into the convolution that computes x."""
+        convolution = self.graph.operators[-1]
+        assert list(convolution.outputs) == [x]
+        convolution.builtinOptions.fusedActivationFunction = ACTIVATION.RELU6
         return x
 
     def bytes(self):

@@ -211,9 +211,9 @@ class ConvertGltf(ConvertTestCase):
                          ("parts", "not a regular file"),
                          ("pipe.bin", "not a regular file")):
             self.write("scene/bad.gltf", json.dumps(self.gltf_document(uri)[0]))
-            code, said = self.refused("scene/bad.gltf", "bad.jsonl")
+            code, message = self.refused("scene/bad.gltf", "bad.jsonl")
             self.assertEqual(code, 3)
-            self.assertIn(f"uri: '{uri[:40]}': {why}", said)
+            self.assertIn(f"uri: '{uri[:40]}': {why}", message)
         done = subprocess.run([PROGRAM, "convert", "-", self.path("bad.jsonl")], capture_output=True, text=True,
                               input=json.dumps(self.gltf_document("data.bin")[0]))
         self.assertEqual(done.returncode, 3)
@@ -238,11 +238,11 @@ class ConvertGltf(ConvertTestCase):
             document, data = self.gltf_document("data:;base64,", extension=extension)
             document["buffers"][0]["uri"] += base64.b64encode(data).decode()
             self.write("packed.gltf", json.dumps(document))
-            code, said = self.refused("packed.gltf", "packed.jsonl")
+            code, message = self.refused("packed.gltf", "packed.jsonl")
             self.assertEqual(code, 3)
             self.assertIn(
                 f"bufferView: compressed with {extension}, which is not supported; export the animation without it",
-                said)
+                message)
 
     def test_cues_hold_in_gltf(self):
         self.write("cues.tsv", "0.00\tX\n1.00\tD\n2.00\tX\n3.00\tX\n")

@@ -136,12 +136,12 @@ ARKIT += "mouthShrugLower mouthShrugUpper browInnerUp cheekPuff tongueOut".split
 
 def run(*words):
     """Seconds of CPU time, peak memory in bytes, exit code, output."""
-    with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=said)
+    with tempfile.TemporaryFile() as message:
+        child = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=message)
         _, status, used = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
-        said.seek(0)
-        return used.ru_utime + used.ru_stime, used.ru_maxrss * 1024, child.returncode, said.read().decode()
+        message.seek(0)
+        return used.ru_utime + used.ru_stime, used.ru_maxrss * 1024, child.returncode, message.read().decode()
 
 
 def convert(*words):
@@ -151,10 +151,10 @@ def convert(*words):
 def work(*words):
     """Returns billions of instructions, or seconds of CPU time, then exit code and output."""
     if MEASURED != "count":
-        seconds, _, code, said = convert(*words)
-        return seconds, code, said
-    _, _, code, said = run("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", PROGRAM, "convert", *words)
-    return int(re.search(r"Collected : (\d+)", said)[1]) / 1e9, code, said
+        seconds, _, code, message = convert(*words)
+        return seconds, code, message
+    _, _, code, message = run("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", PROGRAM, "convert", *words)
+    return int(re.search(r"Collected : (\d+)", message)[1]) / 1e9, code, message
 
 
 class Sizes(unittest.TestCase):
@@ -180,8 +180,8 @@ class Sizes(unittest.TestCase):
         least = [float("inf")] * 2
         for _ in range(RUNS):
             for i, path in enumerate((single, double)):
-                done, code, said = work(path, "-", "--to", "csv", *more)
-                self.assertEqual(code, 0, said)
+                done, code, message = work(path, "-", "--to", "csv", *more)
+                self.assertEqual(code, 0, message)
                 least[i] = min(least[i], done)
             growth = least[1] / max(least[0], 1e-3)
             if not MEASURED or growth <= MAX_GROWTH:
@@ -198,8 +198,8 @@ class Sizes(unittest.TestCase):
         for name, make in FILES.items():
             with self.subTest(name):
                 path = self.file("large", make, SIZE_OF_MEMORY)
-                _, memory, code, said = convert(path, "-", "--to", "csv")
-                self.assertEqual(code, 0, said)
+                _, memory, code, message = convert(path, "-", "--to", "csv")
+                self.assertEqual(code, 0, message)
                 if MEASURED:
                     self.assertLessEqual(memory, 8 * os.path.getsize(path) + (64 << 20), (memory >> 20, os.path.getsize(path)))
 
@@ -212,13 +212,13 @@ class Sizes(unittest.TestCase):
     def test_the_total_of_all_faces_is_limited(self):
         lines = [{"t_ns": int(t * 1e9), "face_id": face} for t in (0, 5000) for face in range(1, 41)]
         path = self.file("faces.jsonl", lambda: "".join(json.dumps(line) + "\n" for line in lines))
-        _, _, code, said = convert(path, "-", "--to", "csv", "--fps", "100")
+        _, _, code, message = convert(path, "-", "--to", "csv", "--fps", "100")
         self.assertEqual(code, 2)
-        self.assertIn("--fps: more than ten million frames", said)
+        self.assertIn("--fps: more than ten million frames", message)
         path = self.file("crowd.jsonl", numbered, '{"t_ns":0,"face_id":%d}\n', 100000)
-        _, _, code, said = convert(path, "-", "--to", "csv", "--fps", "10")
+        _, _, code, message = convert(path, "-", "--to", "csv", "--fps", "10")
         self.assertEqual(code, 2)
-        self.assertIn("--fps: more than 1000 faces; select one with --face", said)
+        self.assertIn("--fps: more than 1000 faces; select one with --face", message)
 
 
 if __name__ == "__main__":

@@ -66,8 +66,8 @@ class Convert(ConvertTestCase):
         self.assert_stable("all.jsonl")
 
     def test_csv(self):
-        said = self.convert("source.jsonl", "curves.csv")
-        self.assertIn("omitted: eye rotation", said)
+        message = self.convert("source.jsonl", "curves.csv")
+        self.assertIn("omitted: eye rotation", message)
         rows = list(csv.DictReader(self.read("curves.csv").splitlines()))
         for frame, row in zip(self.frames, rows, strict=True):
             self.assertEqual(round(float(row["t_ms"]) * 1e6), frame["t_ns"])
@@ -358,8 +358,8 @@ Frame Time: 0.04
         os.rename(self.path("plain.csv"), names[0])
         done = subprocess.run([PROGRAM, "convert", *names, "--json"], capture_output=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        said = json.loads(done.stderr.decode())
-        self.assertEqual((said["frames"], said["input"]), (2, self.path("in") + "-\ufffd.csv"))
+        message = json.loads(done.stderr.decode())
+        self.assertEqual((message["frames"], message["input"]), (2, self.path("in") + "-\ufffd.csv"))
         self.assertTrue(os.path.exists(names[1]))
 
     def test_several_faces(self):
@@ -380,17 +380,17 @@ Frame Time: 0.04
         rows = ["Timecode,BlendshapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll"]
         rows += [f"10:00:{i // 25:02}:{i % 25:02}.000,61,0,20.0,-8.5,3.0" for i in range(75)]
         self.write("phone.csv", "\n".join(rows) + "\n")
-        said = self.convert("phone.csv", "phone.jsonl")
-        self.assertIn("timecode: 25 frames per second, detected (--from-llf-fps)", said)
-        self.assertIn("rotations: degrees, detected (--from-llf-rot)", said)
+        message = self.convert("phone.csv", "phone.jsonl")
+        self.assertIn("timecode: 25 frames per second, detected (--from-llf-fps)", message)
+        self.assertIn("rotations: degrees, detected (--from-llf-rot)", message)
         frames = self.frames_of("phone.jsonl")
         self.assertEqual([frame["t_ns"] - frames[0]["t_ns"] for frame in frames], [40000000 * i for i in range(75)])
         self.assertEqual(self.convert("phone.csv", "phone.jsonl", "--quiet"), "")
         told = json.loads(self.convert("phone.csv", "phone.jsonl", "--json"))
         self.assertEqual(len(told["notes"]), 2)
-        code, said = self.refused("phone.csv", "phone.out.jsonl", "--from-llf-rot", "rad")
+        code, message = self.refused("phone.csv", "phone.out.jsonl", "--from-llf-rot", "rad")
         self.assertEqual(code, 3)
-        self.assertIn("HeadYaw: more than half a turn in radians (got 20, expected -3.14 to 3.14; --from-llf-rot", said)
+        self.assertIn("HeadYaw: more than half a turn in radians (got 20, expected -3.14 to 3.14; --from-llf-rot", message)
 
     def test_units_of_bvh_are_options(self):
         self.write("one.jsonl", json.dumps({"t_ns": 0, "position_m": [0.5, 0.25, -1],
@@ -406,12 +406,12 @@ Frame Time: 0.04
     def test_unknown_endings_are_rejected(self):
         self.write("one.csv", "t_ms,jawOpen\n0,0\n")
         for name in ("x.fbx", "x.txt", "x.csv.gz", "x.json", "x.v2"):
-            code, said = self.refused("one.csv", name)
+            code, message = self.refused("one.csv", name)
             self.assertEqual(code, 2)
             self.assertIn(
                 f"{name}: unknown format (got {os.path.splitext(name)[1]}, expected one of .csv, .jsonl, .llf.csv, "
-                ".gltf, .glb", said)
-            self.assertIn("--to csv, jsonl, llf", said)
+                ".gltf, .glb", message)
+            self.assertIn("--to csv, jsonl, llf", message)
         self.convert("one.csv", "x.fbx", "--to", "csv")
         self.assertEqual(self.read("x.fbx").splitlines()[1].split(",")[:2], ["0", "0"])
         self.convert("one.csv", "no_ending")

@@ -1,4 +1,4 @@
-// Tests of our glTF with other programs: Khronos' validator reports no error and no warning, and three.js plays it.
+// Tests of mien's glTF with other programs: Khronos' validator reports no error and no warning, and three.js plays it.
 // usage: gltf_test.mjs MIEN_PROGRAM PACKAGES        PACKAGES fetched by scripts/peers/install_gltf.sh
 // The file contains the avatar that apps/web/avatar/bake.mjs writes, as do recordings of the web page.
 import assert from 'node:assert/strict';

@@ -188,14 +188,14 @@ class Live(unittest.TestCase):
         receiver = self.receiver()
         live = self.start(command("--camera", f"tcp://127.0.0.1:{server.getsockname()[1]}", "--mic", "none", "--lod", 1,
                                   "--send", f"jsonl://:{receiver.port}"), stderr=subprocess.PIPE, text=True)
-        said = ""
-        while "recovered" not in said and live.poll() is None:
-            said += live.stderr.readline()
+        message = ""
+        while "recovered" not in message and live.poll() is None:
+            message += live.stderr.readline()
         live.send_signal(signal.SIGINT)
-        said += live.communicate(timeout=60)[1]
-        self.assertEqual(live.returncode, 0, said)
-        self.assertRegex(said, r"tcp://127.0.0.1:\d+: .*; retrying\n")
-        self.assertRegex(said, r"\d+ frames in .* s, \d+ with a face, dropped \d+ images")
+        message += live.communicate(timeout=60)[1]
+        self.assertEqual(live.returncode, 0, message)
+        self.assertRegex(message, r"tcp://127.0.0.1:\d+: .*; retrying\n")
+        self.assertRegex(message, r"\d+ frames in .* s, \d+ with a face, dropped \d+ images")
         self.assertEqual(len(connections), 2)
         states = [json.loads(packet)["status"] for packet in receiver.packets()]
         self.assertIn("tracking", states)
@@ -219,8 +219,8 @@ class Live(unittest.TestCase):
         self.addCleanup(connection.close)
         time.sleep(0.5)
         os.killpg(live.pid, signal.SIGINT)
-        said = live.communicate(timeout=60)[1]
-        self.assertEqual((live.returncode, said), (0, ""))
+        message = live.communicate(timeout=60)[1]
+        self.assertEqual((live.returncode, message), (0, ""))
         with open(self.path("stats")) as file:
             self.assertEqual(json.load(file)["frames_with_face"], 0)
 
@@ -259,8 +259,8 @@ class Live(unittest.TestCase):
         late = self.receiver(late_port)
         late.wait(lambda packets: len(packets) > 20)
         live.send_signal(signal.SIGINT)
-        said = live.communicate(timeout=60)[1]
-        self.assertEqual(live.returncode, 0, said)
+        message = live.communicate(timeout=60)[1]
+        self.assertEqual(live.returncode, 0, message)
         with open(self.path("stats")) as file:
             stats = json.load(file)
         self.assertEqual(stats["dropped_packets"], stats["frames"], "those to the first receiver")

@@ -83,12 +83,12 @@ class Manners(unittest.TestCase):
                 with open(path, "w") as file:
                     file.write("t_ms,pitch_rad,yaw_rad,roll_rad,jawOpen" + (",tongueOut" if path == a else "") + "\n")
                     file.writelines(f"{i * 40},0,{0.1 * i},0,{jaw}" + (",0" if path == a else "") + "\n" for i in range(10))
-            said = json.loads(run("compare", a, b, "-o", page, "--json").stdout)
-            self.assertEqual((said["matched_frames"], said["a"], said["b"]["name"]),
+            summary = json.loads(run("compare", a, b, "-o", page, "--json").stdout)
+            self.assertEqual((summary["matched_frames"], summary["a"], summary["b"]["name"]),
                              (10, {"name": "a.csv", "frames": 10, "start_ms": 0.0, "last_ms": 360.0}, "b.csv"))
-            self.assertEqual(list(said["controls"]), ["jawOpen"], "controls of both files")
-            self.assertEqual((said["controls"]["jawOpen"]["mean_abs"], said["controls"]["jawOpen"]["correlation"]), (0.25, None))
-            self.assertEqual(said["head"]["yaw"]["mean_abs_deg"], 0.0)
+            self.assertEqual(list(summary["controls"]), ["jawOpen"], "controls of both files")
+            self.assertEqual((summary["controls"]["jawOpen"]["mean_abs"], summary["controls"]["jawOpen"]["correlation"]), (0.25, None))
+            self.assertEqual(summary["head"]["yaw"]["mean_abs_deg"], 0.0)
             self.assertTrue(os.path.exists(page))
 
     def test_a_neutral_face_as_json(self):

@@ -69,7 +69,7 @@ class OutputSafety(unittest.TestCase):
     def files(self) -> list[str]:
         return sorted(path.name for path in self.out.iterdir())
 
-    def run_whole(self, command) -> float:
+    def run_to_end(self, command) -> float:
         began = time.monotonic()
         done = subprocess.run(command, capture_output=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
@@ -80,7 +80,7 @@ class OutputSafety(unittest.TestCase):
         out = self.out / name
         whole = []
         for command in commands:
-            self.run_whole(command)
+            self.run_to_end(command)
             whole.append(out.read_bytes())
             out.unlink()
         self.assertNotEqual(*whole)
@@ -106,7 +106,7 @@ class OutputSafety(unittest.TestCase):
             path.write_bytes(clip(30 + shift, shift))
         curves = [self.inputs / "a.csv", self.inputs / "b.csv"]
         for source, table in zip(clips, curves):
-            self.run_whole(self.track(source, "-o", table))
+            self.run_to_end(self.track(source, "-o", table))
         races = {
             "out.csv": [self.track(path, "-o", self.out / "out.csv") for path in clips],
             "out.glb": [[MIEN, "convert", "--quiet", path, self.out / "out.glb"] for path in curves],
@@ -159,7 +159,7 @@ class OutputSafety(unittest.TestCase):
         source.write_bytes(clip(20))
         whole, usual = {}, 0.0
         for _ in range(4):  # both kinds of temporary video
-            usual = self.run_whole(self.track(source, *self.outputs()))
+            usual = self.run_to_end(self.track(source, *self.outputs()))
             whole.update({path.name: path.read_bytes() for path in self.out.iterdir() if path.suffix not in (".json", ".html")})
         ends = collections.Counter()
         for _ in range(KILLS):
@@ -190,7 +190,7 @@ class OutputSafety(unittest.TestCase):
         """As under nohup."""
         source = self.inputs / "clip.y4m"
         source.write_bytes(clip(20))
-        usual = self.run_whole(self.track(source, "-o", self.out / "out.csv"))
+        usual = self.run_to_end(self.track(source, "-o", self.out / "out.csv"))
         process = subprocess.Popen(self.track(source, "-o", self.out / "out.csv"),
                                    preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         time.sleep(usual / 2)
@@ -204,7 +204,7 @@ class OutputSafety(unittest.TestCase):
         source.write_bytes(clip(20))
         command = self.track(source, "-o", self.out / "out.csv", "--landmarks", self.out / "landmarks.csv",
                              *(["--overlay", self.out / "out.mp4"] if HAVE_FFMPEG else []))
-        usual = self.run_whole(command)
+        usual = self.run_to_end(command)
         whole = {path.name: path.read_bytes() for path in self.out.iterdir()}
         for _ in range(KILLS):
             for path in self.out.iterdir():
@@ -223,7 +223,7 @@ class OutputSafety(unittest.TestCase):
         victim.write_text("mine")
         for name in (".partial-out.csv", "out.csv"):
             (self.out / name).symlink_to(victim)
-        self.run_whole(self.track(source, "-o", self.out / "out.csv"))
+        self.run_to_end(self.track(source, "-o", self.out / "out.csv"))
         self.assertEqual(victim.read_text(), "mine")
         self.assertFalse((self.out / "out.csv").is_symlink())
         self.assertTrue((self.out / ".partial-out.csv").is_symlink())
@@ -235,9 +235,9 @@ class OutputSafety(unittest.TestCase):
         for name in names:
             (self.out / name).write_text("before")
             (self.out / name).chmod(0o640)
-        self.run_whole(self.track(source, "-o", self.out / "out.csv"))
+        self.run_to_end(self.track(source, "-o", self.out / "out.csv"))
         for name in names[1:]:
-            self.run_whole(self.track(source, "-o", os.devnull, "--overlay", self.out / name))
+            self.run_to_end(self.track(source, "-o", os.devnull, "--overlay", self.out / name))
         for name in names:
             self.assertEqual((self.out / name).stat().st_mode & 0o777, 0o640, name)
             self.assertNotEqual((self.out / name).read_bytes(), b"before")

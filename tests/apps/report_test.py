@@ -49,7 +49,7 @@ class Folder:
         outputs = [word for format, ending in EXPORTS.items() for word in ("-o", cls.file("x" + ending))]
         done = mien("track", cls.file(HOSTILE), "--report", cls.file("report.html"), "--landmarks", cls.file("landmarks.csv"),
                     "--stats", cls.file("stats.json"), "--quiet", *outputs)
-        cls.said = done.stdout
+        cls.printed = done.stdout
 
     @classmethod
     def file(cls, name):
@@ -149,7 +149,7 @@ class Contents(unittest.TestCase):
 
     def test_names_are_escaped_and_nothing_is_loaded(self):
         self.assertEqual(self.report.data["name"], HOSTILE)
-        self.assertEqual(Folder.said, b"", "no curves on standard output with a report")
+        self.assertEqual(Folder.printed, b"", "no curves on standard output with a report")
         for tag, name, value in self.report.page.attributes:
             if name in ("src", "href"):
                 self.assertEqual((tag, value), ("link", "data:,"))

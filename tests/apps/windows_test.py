@@ -173,8 +173,8 @@ class Windows(unittest.TestCase):
                            "--models", MODELS, "--lod", "1")
             self.assertEqual((done.returncode, done.stderr), (0, b""))
             packets = receiver.packets()
-        said = json.loads(pathlib.Path(stats).read_text())
-        self.assertEqual(said["frames"], len(packets))
+        statistics = json.loads(pathlib.Path(stats).read_text())
+        self.assertEqual(statistics["frames"], len(packets))
         self.assertGreater(len(packets), 20)  # of 240; depends on the machine
         self.assertEqual([line.encode() for line in done.stdout.decode().split("\n")[:-1]], packets)
         tracked = [packet for packet in map(json.loads, packets) if packet["status"] == "tracking"]

@@ -9,7 +9,7 @@ X = {"x": [1, 10, 8, 6]}
 
 
 def case(name, nodes, shapes=None, **options):
-    return Case(name, nodes, shapes or X, expected=numpy_graph.answers, rounds=options.pop("rounds", True), **options)
+    return Case(name, nodes, shapes or X, expected=numpy_graph.run, rounds=options.pop("rounds", True), **options)
 
 
 def product_cases():

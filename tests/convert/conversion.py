@@ -31,7 +31,7 @@ def convert(arguments):
     return 0, output.getvalue()
 
 
-def answered(folder, model, x, layout="chw", network=()):
+def run_network(folder, model, x, layout="chw", network=()):
     """The outputs of `mien run` for x: one array each."""
     np.save(folder / "x.npy", np.ascontiguousarray(x))
     info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True,
@@ -52,7 +52,7 @@ def output_count(info, network):
 
 
 def time_axis(model):
-    """Of the first input, if the network is one of steps: the converter notes it."""
+    """The time axis of the first input, which the converter stores as metadata; None if the network has none."""
     info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True,
                                      text=True).stdout)
     note = next(value for key, value in info["metadata"].items() if key.endswith(".onnx"))
@@ -60,7 +60,7 @@ def time_axis(model):
 
 
 def difference(got, wanted):
-    """Largest, of the largest value wanted."""
+    """The largest difference, relative to the largest expected value."""
     if got.size != wanted.size:
         return f"{got.size} numbers, not {wanted.size}"
     return float(np.abs(got.reshape(-1) - wanted.reshape(-1)).max() / max(np.abs(wanted).max(), 1e-3))

@@ -15,7 +15,7 @@ from pathlib import Path
 try:
     import numpy as np
     import onnx
-    from conversion import PROGRAM, answered, convert
+    from conversion import PROGRAM, convert, run_network
     from operator_cases import Case, node
 
     from mien_convert.int8 import relative
@@ -91,13 +91,13 @@ class Int8(unittest.TestCase):
 
     def test_the_engine_differs_as_much_as_estimated(self):
         case, x = mobile_net(), np.load(self.samples / "a.npy")
-        exact = answered(self.folder, self.converted(case, name="exact")[1], x, network=self.network("ref"))[0]
+        exact = run_network(self.folder, self.converted(case, name="exact")[1], x, network=self.network("ref"))[0]
         report, model = self.converted(case, "--int8", self.samples, "--int8-error", "0.1")
         self.assertTrue(all(bound > 0 for bound in self.bounds(model)))
         self.assertIn("8 bits in 6 of 6 layers of inverted residual blocks, ", report)
         estimate = float(re.search(r"estimated error of the outputs: (\S+) of their deviation", report)[1])
         for tier in self.tiers(model):
-            error = relative(answered(self.folder, model, x, network=self.network(tier))[0], exact)
+            error = relative(run_network(self.folder, model, x, network=self.network(tier))[0], exact)
             self.assertLess(0.9 * estimate, error, tier)
             self.assertLess(error, 1.1 * estimate, tier)
 

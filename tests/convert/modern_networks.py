@@ -86,8 +86,8 @@ def networks():
 
 
 def has_default_export():
-    """Whether PyTorch's exporter of today is here, whose default is an opset of 18 or more and weights in a file of
-    their own."""
+    """Whether PyTorch's current exporter is installed. By default it writes opset 18 or later, and weights to a
+    separate file."""
     try:
         import onnxscript  # noqa: F401
     except ModuleNotFoundError:

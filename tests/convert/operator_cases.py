@@ -196,7 +196,7 @@ def pad_cases():
     yield Case("pad_conv", [padded, node("Conv", "t v", pads=[1, 0, 0, 0])], X, opset=18,
                constants={"p": ints(0, 2, 1, 0), "axes": ints(2, 3), "v": pads["v"]})
     yield Case("pad_max_pool", [node("Pad", "x p", "t"), node("MaxPool", "t", kernel_shape=[2, 2])], X, constants=pads,
-               answer=padded_and_pooled)
+               first_output=padded_and_pooled)
 
 
 def reshape_cases(w):
@@ -283,7 +283,7 @@ def lstm_cases():
     yield Case("lstm_without_bias", [lstm("x w r", "t"), squeeze], sequence,
                constants={**lstm_weights(5, 8), "axes": ints(1)})
     yield Case("lstm_batch_first", [lstm("x w r b", "t", layout=1), squeeze], {"x": [1, 12, 5]}, opset=14,
-               rounds=True, constants={**lstm_weights(5, 8), "axes": ints(2)}, answer=cell_of_steps)
+               rounds=True, constants={**lstm_weights(5, 8), "axes": ints(2)}, first_output=cell_of_steps)
     zeros = {"z": np.zeros((1, 1, 8), np.float32)}
     yield Case("lstm_zeros", [lstm("x w r b  z z", "t"), squeeze], sequence, rounds=True,
                constants={**lstm_weights(5, 8), **zeros, "axes": ints(1)})

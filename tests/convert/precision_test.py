@@ -19,7 +19,7 @@ try:
     import onnx
     import operator_cases
     import random_graphs
-    from conversion import answered, convert, difference
+    from conversion import convert, difference, run_network
     from operator_cases import Case, node
 
     from mien_convert import precision
@@ -51,7 +51,7 @@ class Folder(unittest.TestCase):
         return model, model.stat().st_size, report
 
     def error(self, case, x, want, *arguments):
-        got, = answered(self.folder, self.converted(case, *arguments)[0], x)
+        got, = run_network(self.folder, self.converted(case, *arguments)[0], x)
         return difference(got, want)
 
 
@@ -190,7 +190,7 @@ class Evaluation(Folder):
         values = {id(conversion.source): x}
         for layer in network.layers:
             values[id(layer)] = value_of(layer, [values[id(x)] for x in layer.inputs], rounded, rounded)
-        for output, got in zip(network.outputs, answered(self.folder, self.folder / "y.mien", given)):
+        for output, got in zip(network.outputs, run_network(self.folder, self.folder / "y.mien", given)):
             want = values[id(output)]
             self.assertLess(difference(got, want if steps else want.transpose(0, 3, 1, 2)), 2e-5)
 

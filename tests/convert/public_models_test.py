@@ -13,7 +13,7 @@ from pathlib import Path
 try:
     import numpy as np
     import onnx
-    from conversion import MODULES, Runtime, answered, convert, difference, runtime_is_here
+    from conversion import MODULES, Runtime, convert, difference, run_network, runtime_is_here
 except ModuleNotFoundError as missing:
     print("skipped: missing Python module", missing.name + "; scripts/setup.sh convert installs it")
     sys.exit(77)
@@ -41,7 +41,7 @@ def check(path, folder):
         return False, f"ONNX Runtime: {failures}"
     x = next(iter(inputs.values()))
     wanted = [y for y in runtime.outputs(0) if y.size]
-    got = answered(folder, network, x[0] if x.ndim == 4 else x)
+    got = run_network(folder, network, x[0] if x.ndim == 4 else x)
     errors = [difference(a, b) for a, b in zip(got, wanted)]
     wrong = len(got) != len(wanted) or any(isinstance(error, str) or error > ALLOWED for error in errors)
     worst = max((error for error in errors if not isinstance(error, str)), default=0)

@@ -1,4 +1,4 @@
-"""Stills that are rendered while training runs: shards come, serve, and make room for newer ones."""
+"""Stills that are rendered while training runs: shards appear, are used, and are replaced by newer ones."""
 import itertools
 import os
 import tempfile

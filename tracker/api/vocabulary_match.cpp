@@ -14,7 +14,7 @@
 namespace mien::tracker {
 namespace {
 
-// Fewer names that may be of visemes or vowels, such as "A", mean something else.
+// With fewer matches, names such as "A" are probably not visemes or vowels.
 constexpr int kMinMouthNames = 3;
 
 // Morph targets of VRoid Studio, in the order of kVrm0Rows.

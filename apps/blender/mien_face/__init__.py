@@ -1,4 +1,4 @@
-"""Face animation of mien in Blender: live onto shape keys and a head, and from files as actions."""
+"""Facial animation in Blender: live on shape keys and a head, or imported from files as actions."""
 
 try:
     import bpy

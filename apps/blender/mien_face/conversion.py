@@ -47,12 +47,12 @@ def _solve(target, chosen):
 
 
 def _step(weights, chosen, wanted):
-    """Moves towards `wanted` as far as no weight becomes negative. Returns False once all the way is done."""
-    shares = [weights[i] / (weights[i] - goal) for i, goal in zip(chosen, wanted) if goal <= 0.0]
-    share = min(shares, default=1.0)
+    """Moves towards `wanted` until a weight would become negative. Returns False if it reaches `wanted`."""
+    limits = [weights[i] / (weights[i] - goal) for i, goal in zip(chosen, wanted) if goal <= 0.0]
+    step = min(limits, default=1.0)
     for i, goal in zip(chosen, wanted):
-        weights[i] += min(1.0, share) * (goal - weights[i])
-    if share >= 1.0:
+        weights[i] += min(1.0, step) * (goal - weights[i])
+    if step >= 1.0:
         return False
     for i, goal in list(zip(chosen, wanted)):
         if goal <= 0.0 and weights[i] <= _TOLERANCE:

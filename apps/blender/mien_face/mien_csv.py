@@ -19,7 +19,7 @@ def _time(table):
     return t_ms / 1000.0
 
 
-def _share(table, name):
+def _fraction(table, name):
     value = table.number(name)
     if value is not None and not 0.0 <= value <= 1.0:
         raise table.error(f"{name}: {quoted(table.text(name))} is not in 0..1")
@@ -45,7 +45,7 @@ def _face_id(table):
 
 def _frame(table, vocabulary, names):
     table.check_width()
-    values = {name: _share(table, name) for name in names}
+    values = {name: _fraction(table, name) for name in names}
     return Frame(
         _time(table), {vocabulary: {name: value for name, value in values.items() if value is not None}}, _head(table)
     )

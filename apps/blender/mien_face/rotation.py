@@ -6,7 +6,7 @@ IDENTITY = (1.0, 0.0, 0.0, 0.0)
 
 
 def product(a, b):
-    """First b, then a."""
+    """Rotates by b, then by a."""
     aw, ax, ay, az = a
     bw, bx, by, bz = b
     return (

@@ -1,6 +1,6 @@
 """Evaluates layers with numpy in fp32, to estimate the effect of rounding weights to fp16 on the outputs.
 
-Values are [n, h, w, c]: n inputs that have nothing to do with one another, or n steps of a stream.
+Values are [n, h, w, c]: n independent inputs, or n steps of a stream.
 """
 import math
 
@@ -120,9 +120,9 @@ def cut(x, _, first_channel, channels, padding):
 
 def resize(x, layer, height, width, grid, sampling):
     for axis, size in ((1, height), (2, width)):
-        low, high, share = places(x.shape[axis], size, grid, sampling)
-        share = share.reshape(-1, *[1] * (3 - axis))
-        x = np.take(x, low, axis) * (1 - share) + np.take(x, high, axis) * share
+        low, high, fraction = places(x.shape[axis], size, grid, sampling)
+        fraction = fraction.reshape(-1, *[1] * (3 - axis))
+        x = np.take(x, low, axis) * (1 - fraction) + np.take(x, high, axis) * fraction
     return x
 
 

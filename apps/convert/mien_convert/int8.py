@@ -113,7 +113,7 @@ class Search:
         return chosen, error
 
     def error(self, layers):
-        """Of the outputs, if these layers compute with 8 bits."""
+        """The error of the outputs if these layers compute with 8 bits."""
         in_8_bits, changed = {id(layer) for layer in layers}, {}
         for layer in self.network.layers:
             if id(layer) in in_8_bits:

@@ -151,7 +151,7 @@ class Graph(Body):
 def loaded(path):
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error")  # all there is of a file that could be read in part only
+            warnings.simplefilter("error")  # the warning about a file that can only be read in part
             model = onnx.load(str(path), load_external_data=False)
     except Exception as error:  # the type depends on the version of protobuf
         raise Refused(f"not an ONNX file: {error}") from error

@@ -1,7 +1,7 @@
 """One function for each ONNX operator: (translator, node) -> its outputs. docs/convert.md lists them.
 
-node.inputs are Tensors, numpy arrays (constants) or None; operators whose inputs are all constants do not come here,
-but those of MOVES do, which serve both.
+node.inputs are Tensors, numpy arrays (constants) or None. Operators whose inputs are all constants are evaluated in
+advance (constants.py), except those of MOVES, which also accept constants.
 """
 from .activations import (
          CURVES,

@@ -5,7 +5,7 @@ A tensor maps each element to an element of a layer, or to a constant. Therefore
 
     scale * (element of a layer, or 0) + shift
 
-`at` numbers the element: layer << 32 | step * size + (channel * h + row) * w + column, NOTHING for a constant.
+`at` identifies the element: layer << 32 | step * size + (channel * h + row) * w + column, or NOTHING for a constant.
 """
 import numpy as np
 

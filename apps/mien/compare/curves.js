@@ -10,8 +10,8 @@ function chartable(name) {
   if (k >= 0) return {name, low: 0, high: 1, values: file => file.controls[k]};
   const values = file => file[name].map(degrees);
   const present = [data.a, data.b].flatMap(values).filter(angle => angle !== null);
-  const reach = Math.max(10, ...[0.01, 0.99].map(share =>
-    Math.abs(present.slice().sort((p, q) => p - q)[Math.floor(share * (present.length - 1))] ?? 0) * 1.15));
+  const reach = Math.max(10, ...[0.01, 0.99].map(fraction =>
+    Math.abs(present.slice().sort((p, q) => p - q)[Math.floor(fraction * (present.length - 1))] ?? 0) * 1.15));
   return {name, low: -reach, high: reach, values};
 }
 
@@ -31,7 +31,7 @@ class Chart {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
-  share(t_ms) { return (t_ms - data.start_ms) / (data.end_ms - data.start_ms); }
+  fraction(t_ms) { return (t_ms - data.start_ms) / (data.end_ms - data.start_ms); }
 
   draw() {
     const {canvas} = this;
@@ -66,7 +66,7 @@ class Chart {
     ctx.beginPath();
     values.forEach((value, i) => {
       if (value === null) return;
-      const x = this.share(file.t_ms[i]) * this.canvas.width, y = this.height(value);
+      const x = this.fraction(file.t_ms[i]) * this.canvas.width, y = this.height(value);
       if (i > 0 && values[i - 1] !== null) ctx.lineTo(x, y); else ctx.moveTo(x, y);
     });
     ctx.strokeStyle = color;
@@ -75,7 +75,7 @@ class Chart {
     ctx.stroke();
   }
 
-  show(t_ms) { this.cursor.style.left = `${100 * this.share(t_ms)}%`; }
+  show(t_ms) { this.cursor.style.left = `${100 * this.fraction(t_ms)}%`; }
 }
 
 const columns = ['mean |A−B|', 'max |A−B|', 'at, s', 'correlation', 'mean A', 'mean B', 'jitter A', 'jitter B', 'frames'];

@@ -77,7 +77,7 @@ class Wizard {
   }
 
   // The position of the progress bar: the neutral face, the rest, then the expressions.
-  part(index, share) { return (index + share) / (2 + expressions.length); }
+  part(index, fraction) { return (index + fraction) / (2 + expressions.length); }
 
   // The highest value of each control within the time.
   async collect(time_ms, stopped, index = 1, peaks = new Peaks()) {

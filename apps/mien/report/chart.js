@@ -46,7 +46,7 @@ function traceFrames(ctx, series, take, view, width, height) {
   for (let i = Math.max(0, take.firstFrom(view.start_ms) - 1); i <= last; ++i) {
     const value = series.value(i);
     if (value === null) { open = false; continue; }
-    const x = view.share(take.t_ms[i]) * width, y = height(value);
+    const x = view.fraction(take.t_ms[i]) * width, y = height(value);
     if (open) ctx.lineTo(x, y); else ctx.moveTo(x, y);
     open = true;
   }
@@ -102,7 +102,7 @@ function drawRuler(canvas, view) {
   ctx.font = `${11 * ratio}px system-ui, sans-serif`;
   ctx.textBaseline = 'middle';
   for (let t = Math.ceil(view.start_ms / step) * step; t < view.end_ms; t += step) {
-    const x = Math.round(view.share(t) * width);
+    const x = Math.round(view.fraction(t) * width);
     ctx.fillStyle = styleColor('line');
     ctx.fillRect(x, height * 0.25, ratio, height * 0.75);
     ctx.fillStyle = styleColor('faint');

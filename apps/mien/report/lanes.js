@@ -41,9 +41,9 @@ class Lane {
     const {ctx, width, ratio} = fit, margin = 6 * ratio, [low, high] = this.range;
     const height = value => mix(fit.height - margin, margin, (value - low) / (high - low));
     for (const {start_ms, end_ms} of losses) {
-      const x = view.share(start_ms) * width;
+      const x = view.fraction(start_ms) * width;
       ctx.fillStyle = styleColor('gap');
-      ctx.fillRect(x, 0, Math.max(ratio, view.share(end_ms) * width - x), fit.height);
+      ctx.fillRect(x, 0, Math.max(ratio, view.fraction(end_ms) * width - x), fit.height);
     }
     this.drawGrid(fit, height);
     const pixels = width === first.length - 1 ? first : framesAtPixels(this.take, view, width);
@@ -126,9 +126,9 @@ class Lanes {
   }
 
   moveCursor() {
-    const share = this.view.share(this.t_ms ?? data.start_ms);
-    this.cursor.hidden = share < 0 || share > 1;
-    this.cursor.style.transform = `translateX(${share * this.place.clientWidth}px)`;
+    const fraction = this.view.fraction(this.t_ms ?? data.start_ms);
+    this.cursor.hidden = fraction < 0 || fraction > 1;
+    this.cursor.style.transform = `translateX(${fraction * this.place.clientWidth}px)`;
   }
 
   connect() {

@@ -15,9 +15,9 @@ function findLosses(take) {
 }
 
 function showLosses(losses, take, go) {
-  const frames = losses.reduce((sum, {from, to}) => sum + to - from, 0), share = 100 * frames / Math.max(1, take.frames);
+  const frames = losses.reduce((sum, {from, to}) => sum + to - from, 0), percent = 100 * frames / Math.max(1, take.frames);
   document.getElementById('losses-note').textContent = !data.width ? 'No video.' :
-    losses.length ? `In ${frames} of ${take.frames} frames (${share.toFixed(1)} %), ${losses.length} times.` : 'Every frame has a face.';
+    losses.length ? `In ${frames} of ${take.frames} frames (${percent.toFixed(1)} %), ${losses.length} times.` : 'Every frame has a face.';
   document.getElementById('losses').append(...losses.map(loss => {
     const item = document.createElement('li'), button = Object.assign(document.createElement('button'), {type: 'button'});
     const count = loss.to - loss.from;

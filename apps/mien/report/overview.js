@@ -13,7 +13,7 @@ class Overview {
   }
 
   show(t_ms) {
-    const x = Math.round(this.all.share(t_ms) * this.canvas.width);
+    const x = Math.round(this.all.fraction(t_ms) * this.canvas.width);
     this.t_ms = t_ms;
     if (x !== this.cursorAt) this.draw();
   }
@@ -26,21 +26,21 @@ class Overview {
     ctx.fillStyle = styleColor('bar');
     ctx.fillRect(0, height - strip, width, strip);
     for (const {start_ms, end_ms} of this.losses) {
-      const x = this.all.share(start_ms) * width, length = Math.max(2 * ratio, this.all.share(end_ms) * width - x);
+      const x = this.all.fraction(start_ms) * width, length = Math.max(2 * ratio, this.all.fraction(end_ms) * width - x);
       ctx.fillStyle = styleColor('gap');
       ctx.fillRect(x, 0, length, height);
       ctx.fillStyle = styleColor('alert');
       ctx.fillRect(x, height - strip, length, strip);
     }
     this.drawWindow(fit);
-    this.cursorAt = Math.round(this.all.share(this.t_ms ?? this.all.start_ms) * width);
+    this.cursorAt = Math.round(this.all.fraction(this.t_ms ?? this.all.start_ms) * width);
     ctx.fillStyle = styleColor('ink');
     ctx.fillRect(this.cursorAt - ratio / 2, 0, 1.5 * ratio, height);
   }
 
   drawWindow({ctx, width, height, ratio}) {
     if (this.view.whole) return;
-    const from = this.all.share(this.view.start_ms) * width, to = Math.max(from + 4 * ratio, this.all.share(this.view.end_ms) * width);
+    const from = this.all.fraction(this.view.start_ms) * width, to = Math.max(from + 4 * ratio, this.all.fraction(this.view.end_ms) * width);
     ctx.fillStyle = styleColor('veil');
     ctx.fillRect(0, 0, from, height);
     ctx.fillRect(to, 0, width - to, height);

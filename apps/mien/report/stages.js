@@ -7,10 +7,10 @@ function showStages() {
   const rows = Object.entries(stages).sort(([, a], [, b]) => b.total_ms - a.total_ms);
   if (frame) rows.push(['frame', frame]);
   for (const [name, {median_ms, p95_ms, total_ms}] of rows) {
-    const row = body.insertRow(), share = frame?.total_ms ? total_ms / frame.total_ms : 0;
+    const row = body.insertRow(), fraction = frame?.total_ms ? total_ms / frame.total_ms : 0;
     row.append(Object.assign(document.createElement('th'), {textContent: name, scope: 'row'}));
-    for (const text of [`${median_ms.toFixed(2)} ms`, `${p95_ms.toFixed(2)} ms`, `${(share * 100).toFixed(0)} %`]) row.insertCell().textContent = text;
+    for (const text of [`${median_ms.toFixed(2)} ms`, `${p95_ms.toFixed(2)} ms`, `${(fraction * 100).toFixed(0)} %`]) row.insertCell().textContent = text;
     row.className = name === 'frame' ? 'all' : 'share';
-    row.style.setProperty('--value', share.toFixed(3));
+    row.style.setProperty('--value', fraction.toFixed(3));
   }
 }

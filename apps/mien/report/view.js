@@ -26,8 +26,8 @@ class View {
 
   pan(ms) { this.set(this.start_ms + ms, this.length_ms); }
   all() { this.set(this.first_ms, this.last_ms - this.first_ms); }
-  share(t_ms) { return (t_ms - this.start_ms) / this.length_ms; }
-  timeAt(share) { return mix(this.start_ms, this.end_ms, share); }
+  fraction(t_ms) { return (t_ms - this.start_ms) / this.length_ms; }
+  timeAt(fraction) { return mix(this.start_ms, this.end_ms, fraction); }
 
   // Scrolls by a page when the current time leaves the range.
   keep(t_ms) {

@@ -10,7 +10,7 @@ const jawAngle = 0.26;    // radians at jawOpen 1
 const jawDrop = 0.16;  // lowering of the jaw at jawOpen 1
 export const mouthLine = -0.605;
 
-// Share of the lower jaw's motion: 1 at the chin and the middle of the lower lip, less towards the corners of the mouth
+// Fraction of the lower jaw's motion: 1 at the chin and the middle of the lower lip, less towards the corners of the mouth
 // and the ears.
 export function jawShare({sine, turn}) {
   const round = sine < 0 ? mix(0.30, 1, -sine) : mix(0.30, 0, Math.min(1, sine * 1.1));

@@ -48,7 +48,8 @@ class Coarse extends Face {
       this.part(collar, 44, 2, picked(10, 2, true), {node: nodes.body}), this.part(makeEyeball(), eyeColumns, 1, picked(eyeRings.length, 1), {node: nodes.eye})];
   }
 
-  // A target of the right side is predicted from that of the left: the partner's vertices, in columns that `flip` as the mirror does.
+  // Keeps some rows and every `step`-th column of a mesh. Morph targets of the right side are stored as differences from the mirrored left
+  // side: `partner` is the distance to the part on the other side, `flip` how the mirror reorders columns (0 not, 1 around a ring, 2 reversed).
   part(mesh, columns, step, rows, {node = nodes.head, partner = 0, flip = 0} = {}) {
     const all = mesh.turning.length / columns, triangles = mesh.indices.length / 6;
     const closed = triangles % columns === 0, ring = triangles === all * columns, inward = mesh.indices[1] !== 1;

@@ -91,8 +91,8 @@ for (const where of ['here', 'worker']) {
       const wrong = {
         nothing: undefined, none: null, text: 'face', element: document.body, video: document.createElement('video'), image: new Image(),
         canvas: new OffscreenCanvas(0, 4), closed, bitmap, short: {width: 4, height: 4, data: new Uint8Array(4)}};
-      const said = async source => window.trackers[where].track(source).then(() => 'no error', error => `${error.name} ${error.status}: ${error.message}`);
-      const pairs = Object.entries(wrong).map(async ([name, source]) => [name, await said(source)]);
+      const errorOf = async source => window.trackers[where].track(source).then(() => 'no error', error => `${error.name} ${error.status}: ${error.message}`);
+      const pairs = Object.entries(wrong).map(async ([name, source]) => [name, await errorOf(source)]);
       return Object.fromEntries(await Promise.all(pairs));
     }, where);
     const expected = 'expected a video, VideoFrame, ImageBitmap, canvas, image, ImageData, or {format, width, height, data}';
@@ -123,7 +123,7 @@ for (const where of ['here', 'worker']) {
 }
 
 test('errors of the worker have a status, and end with it', async () => {
-  const said = await page.evaluate(async () => {
+  const messages = await page.evaluate(async () => {
     const {createTrackerWorker, listen, MienError} = window.mien;
     const caught = promise => promise.then(() => 'no error', error => `${error instanceof MienError} ${error.status}: ${error.message}`);
     const tracker = await createTrackerWorker({audio: false, maxLod: 1});
@@ -140,5 +140,5 @@ test('errors of the worker have a status, and end with it', async () => {
     return errors;
   });
   for (const [i, text] of [/^true -7: /, /^true .*max_faces: /, /^true undefined: .*nowhere\/.*: 404 /, /^true -9: /, /^true -1: the tracker was destroyed/,
-                           /^true -1: the tracker was destroyed/, /^true -1: worker: its file could not be loaded/].entries()) assert.match(said[i], text);
+                           /^true -1: the tracker was destroyed/, /^true -1: worker: its file could not be loaded/].entries()) assert.match(messages[i], text);
 });

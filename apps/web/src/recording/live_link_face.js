@@ -1,5 +1,5 @@
 // CSV as Epic's Live Link Face records it: 63 columns. The order of JawRight, JawLeft and of MouthRight, MouthLeft
-// differs from ours. Rotations are in radians; positive pitch looks up.
+// differs from mien's. Rotations are in radians; positive pitch looks up.
 import {gaze, isTracked} from './recording.js';
 
 const fps = 60;
