@@ -184,7 +184,7 @@ Case long_case(RandomValues& random) {
   const Shape shape = long_shape(random);
   Layers layers(random, shape);
   layers.make_positive();
-  layers.scale_expansion(3.0);
+  layers.scale_products(3.0);
   RandomActivation relu, relu6;
   relu.kind = Activation::kRelu;
   relu6.kind = Activation::kRelu6;
