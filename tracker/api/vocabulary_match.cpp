@@ -28,7 +28,9 @@ constexpr std::array<std::string_view, kVrm0Rows.size()> kVroidNames = {
 class PlainName {
  public:
   explicit PlainName(std::string_view name) {
-    name.remove_prefix(name.find_last_of(".:|") + 1);
+    if (const std::size_t mark = name.find_last_of(".:|"); mark != std::string_view::npos) {
+      name.remove_prefix(mark + 1);
+    }
     std::string_view side;
     if (name.size() > 1 && name[name.size() - 2] == '_') {
       const char last = formats::to_lower(name.back());
