@@ -82,7 +82,7 @@ const std::vector<Change> kGltfChanges = {
      "start_ns: out of range"},
     {"\"samplers\"",
      "\"extras\":{\"mien\":{\"start_ns\":5,\"states\":\"sl\",\"not_driven\":[\"jawOpen\","
-     "\"nobody\"]}},\"samplers\"",
+     "\"unknownControl\"]}},\"samplers\"",
      ""}};
 
 TEST(AnimationFaults, Gltf) {

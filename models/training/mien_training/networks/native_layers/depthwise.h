@@ -109,22 +109,22 @@ class RowWindow {
 // Computes a vector of channels of one image's output, and the sums of its values and their
 // squares. fill(row) computes a row of `seen`, the input.
 template <typename T, typename Fill>
-void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::size_t count,
-           Lanes& values, Lanes& squares, Fill fill) {
+void convolve(const Geometry& g, Rows& seen, const Kernel& kernel, T* convolved, std::size_t count,
+              Lanes& values, Lanes& squares, Fill fill) {
   RowWindow rows(g);
   for (std::size_t y = 0; y < g.out_height; ++y) {
     rows.advance_to(y, seen, fill);
     const std::size_t first = y * g.shape.stride;
     const std::array<const Lanes*, 3> from = {seen.whole(first), seen.whole(first + 1),
                                               seen.whole(first + 2)};
-    for (std::size_t x = 0; x < g.out_width; ++x, slid += g.shape.channels) {
+    for (std::size_t x = 0; x < g.out_width; ++x, convolved += g.shape.channels) {
       Lanes sum = {};
       for (std::size_t k = 0; k < kTaps; ++k) {
         sum += from[k / 3][x * g.shape.stride + k % 3] * kernel[k];
       }
       values += sum;
       squares += sum * sum;
-      store_some(slid, sum, count);
+      store_some(convolved, sum, count);
     }
   }
 }
@@ -168,27 +168,28 @@ void slide_backward(const Geometry& g, Rows& seen, Rows& gradient, const Kernel&
 template <typename T>
 class OutputGradient {
  public:
-  OutputGradient(const Geometry& g, const T* dy, const T* slid, Norm norm, float* dweight,
+  OutputGradient(const Geometry& g, const T* dy, const T* convolved, Norm norm, float* dweight,
                  float* dbias)
       : dy_(dy),
-        slid_(slid),
+        convolved_(convolved),
         line_(g.shape.channels, norm),
-        norm_backward_(g.out(), norm, line_, sum_gradients(dy, slid, g.out(), norm, line_, kRelu6),
-                       dweight, dbias) {}
+        norm_backward_(g.out(), norm, line_,
+                       sum_gradients(dy, convolved, g.out(), norm, line_, kRelu6), dweight, dbias) {
+  }
 
   void prefetch_maps(std::size_t offset, std::size_t count) const {
-    prefetch(slid_ + offset, count);
+    prefetch(convolved_ + offset, count);
     prefetch(dy_ + offset, count);
   }
   // offset: of channel c of the pixel in the maps.
   Lanes at(std::size_t offset, std::size_t c, std::size_t count) const {
-    const Lanes v = load_some(slid_ + offset, count);
+    const Lanes v = load_some(convolved_ + offset, count);
     const Lanes dz = passed(line_.at(c, v), kRelu6, load_some(dy_ + offset, count));
     return norm_backward_.at(line_, c, dz, v);
   }
 
  private:
-  const T *dy_, *slid_;
+  const T *dy_, *convolved_;
   Line line_;
   NormBackward norm_backward_;
 };

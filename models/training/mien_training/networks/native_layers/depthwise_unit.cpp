@@ -1,7 +1,7 @@
 // The middle of an inverted residual in training: norm and ReLU6 of the expanded map, a 3x3
 // depthwise convolution, its norm and ReLU6. Maps are [images][height][width][channels], fp32 or
-// bfloat16. Only the expanded map (`x`) and the output of the convolution (`slid`) are stored; the
-// maps between them are computed again when needed.
+// bfloat16. Only the expanded map (`x`) and the output of the convolution (`convolved`) are stored;
+// the maps between them are computed again when needed.
 #include "depthwise.h"
 
 namespace mien::training {
@@ -24,7 +24,7 @@ void read_row(const T* x, DepthwiseShape shape, std::size_t c, std::size_t count
 
 template <typename T>
 void forward(DepthwiseShape shape, const T* x, float epsilon, Norm first, const float* weights,
-             Norm second, T* slid, T* y) {
+             Norm second, T* convolved, T* y) {
   const Geometry g(shape);
   if (first.weight) {
     find_moments(x, g.in(), epsilon, first);
@@ -39,17 +39,17 @@ void forward(DepthwiseShape shape, const T* x, float epsilon, Norm first, const 
       const std::size_t count = std::min(kLanes, shape.channels - c);
       const T* picture = x + i * g.pixels() * shape.channels + c;
       Lanes values = {}, squares = {};
-      slide(g, seen, kernel_of(weights, shape.channels, c, count),
-            slid + i * g.out_pixels() * shape.channels + c, count, values, squares,
-            [&](std::size_t row) {
-              read_row(picture + row * shape.width * shape.channels, shape, c, count, line, limits,
-                       seen.inner(row));
-            });
+      convolve(g, seen, kernel_of(weights, shape.channels, c, count),
+               convolved + i * g.out_pixels() * shape.channels + c, count, values, squares,
+               [&](std::size_t row) {
+                 read_row(picture + row * shape.width * shape.channels, shape, c, count, line,
+                          limits, seen.inner(row));
+               });
       sums.add(c, count, values, squares);
     }
   }
   set_moments(sums, g.out().pixels, shape.channels, epsilon, second);
-  normalise(slid, g.out(), Line(shape.channels, second), kRelu6, y);
+  normalise(convolved, g.out(), Line(shape.channels, second), kRelu6, y);
 }
 
 struct Gradients {
@@ -70,12 +70,12 @@ void pass_norm(Map map, const Line& line, const NormBackward& norm_backward, con
 }
 
 template <typename T>
-void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm first,
+void backward(DepthwiseShape shape, const T* dy, const T* x, const T* convolved, Norm first,
               const float* weights, Norm second, T* dx, Gradients out) {
   const Geometry g(shape);
   const Line line = line_before(shape.channels, first);
   const Limits limits = limits_before(first);
-  const OutputGradient<T> slope(g, dy, slid, second, out.second_weight, out.second_bias);
+  const OutputGradient<T> slope(g, dy, convolved, second, out.second_weight, out.second_bias);
   PerChannel<float> mean = {};
   if (first.weight) {
     std::copy_n(first.mean, shape.channels, mean.begin());
@@ -89,13 +89,13 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
     for (std::size_t c = 0; c < shape.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, shape.channels - c),
                         picture = i * g.pixels() * shape.channels + c;
-      const std::size_t slid_picture = i * g.out_pixels() * shape.channels + c;
+      const std::size_t convolved_image = i * g.out_pixels() * shape.channels + c;
       Kernel dkernel = {};
       Lanes gradients = {}, products = {};
       slide_backward(
           g, seen, gradient, kernel_of(weights, shape.channels, c, count), dkernel,
           [&](std::size_t pixel) {
-            return slope.at(slid_picture + pixel * shape.channels, c, count);
+            return slope.at(convolved_image + pixel * shape.channels, c, count);
           },
           [&](std::size_t row) {
             read_row(x + picture + row * shape.width * shape.channels, shape, c, count, line,
@@ -131,26 +131,28 @@ extern "C" {
 
 // x has no norm if first.weight is null.
 void depthwise_unit_forward(const DepthwiseShape* shape, int half, const void* x, float epsilon,
-                            Norm first, const float* weights, Norm second, void* slid, void* y) {
+                            Norm first, const float* weights, Norm second, void* convolved,
+                            void* y) {
   if (half != 0) {
     forward(*shape, static_cast<const BFloat16*>(x), epsilon, first, weights, second,
-            static_cast<BFloat16*>(slid), static_cast<BFloat16*>(y));
+            static_cast<BFloat16*>(convolved), static_cast<BFloat16*>(y));
   } else {
     forward(*shape, static_cast<const float*>(x), epsilon, first, weights, second,
-            static_cast<float*>(slid), static_cast<float*>(y));
+            static_cast<float*>(convolved), static_cast<float*>(y));
   }
 }
 
 void depthwise_unit_backward(const DepthwiseShape* shape, int half, const void* dy, const void* x,
-                             const void* slid, Norm first, const float* weights, Norm second,
+                             const void* convolved, Norm first, const float* weights, Norm second,
                              void* dx, Gradients out) {
   if (half != 0) {
     backward(*shape, static_cast<const BFloat16*>(dy), static_cast<const BFloat16*>(x),
-             static_cast<const BFloat16*>(slid), first, weights, second, static_cast<BFloat16*>(dx),
-             out);
+             static_cast<const BFloat16*>(convolved), first, weights, second,
+             static_cast<BFloat16*>(dx), out);
   } else {
     backward(*shape, static_cast<const float*>(dy), static_cast<const float*>(x),
-             static_cast<const float*>(slid), first, weights, second, static_cast<float*>(dx), out);
+             static_cast<const float*>(convolved), first, weights, second, static_cast<float*>(dx),
+             out);
   }
 }
 }

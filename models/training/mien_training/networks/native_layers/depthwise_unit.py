@@ -53,12 +53,12 @@ class Fused(torch.autograd.Function):
         like = lambda parameter: None if parameter is None else torch.empty_like(parameter)
         n, c, h, w = x.shape
         out = [(side + 2 * padding - 3) // stride + 1 for side in (h, w)]
-        slid, y = (torch.empty(n, c, *out, dtype=x.dtype, memory_format=torch.channels_last) for _ in range(2))
+        convolved, y = (torch.empty(n, c, *out, dtype=x.dtype, memory_format=torch.channels_last) for _ in range(2))
         first = [first_weight, first_bias, like(first_weight), like(first_weight)]
         second = [second_weight, second_bias, like(second_weight), like(second_weight)]
         native().depthwise_unit_forward(shape_of(x, stride, padding), x.dtype == torch.bfloat16, address(x), epsilon,
-                                        norm(*first), address(kernel), norm(*second), address(slid), address(y))
-        ctx.save_for_backward(x, slid, kernel, *first, *second)
+                                        norm(*first), address(kernel), norm(*second), address(convolved), address(y))
+        ctx.save_for_backward(x, convolved, kernel, *first, *second)
         ctx.stride, ctx.padding, ctx.kernel_shape = stride, padding, weights.shape
         moments = first[2:] + second[2:]
         ctx.mark_non_differentiable(*(m for m in moments if m is not None))
@@ -66,13 +66,13 @@ class Fused(torch.autograd.Function):
 
     @staticmethod
     def backward(ctx, dy, *_):
-        x, slid, kernel, *norms = ctx.saved_tensors
+        x, convolved, kernel, *norms = ctx.saved_tensors
         dy, dx = by_pixel(dy), torch.empty_like(x)
         parameters = norms[0], norms[1], kernel, norms[4], norms[5]
         gradients = [None if p is None else torch.empty_like(p) for p in parameters]
         native().depthwise_unit_backward(shape_of(x, ctx.stride, ctx.padding), x.dtype == torch.bfloat16, address(dy),
                                          address(x),
-                                         address(slid), norm(*norms[:4]), address(kernel), norm(*norms[4:]),
+                                         address(convolved), norm(*norms[:4]), address(kernel), norm(*norms[4:]),
                                          address(dx), Gradients(*map(address, gradients)))
         gradients[2] = gradients[2].T.reshape(ctx.kernel_shape)
         return dx, *gradients, None, None, None

@@ -1,9 +1,9 @@
 // An inverted residual in training without its projection: a pointwise convolution that expands few
 // channels to many, norm and ReLU6, a 3x3 depthwise convolution, norm and ReLU6. Maps are
-// [images][height][width][channels], fp32 or bfloat16; x has `narrow` channels, `slid` and y have
-// shape.channels. The expanded map, the largest of all, is never stored: it is computed from x, a
-// vector of channels of one image at a time, and again in the backward pass. Its moments, and their
-// gradients, follow from those of x, because it is linear in x: mean z = W mean x, E[z z'] =
+// [images][height][width][channels], fp32 or bfloat16; x has `narrow` channels, `convolved` and y
+// have shape.channels. The expanded map, the largest of all, is never stored: it is computed from
+// x, a vector of channels of one image at a time, and again in the backward pass. Its moments, and
+// their gradients, follow from those of x, because it is linear in x: mean z = W mean x, E[z z'] =
 // W E[x x'] W'. The weights of expand have the type of the map.
 #include "depthwise.h"
 #include "products.h"
@@ -104,7 +104,7 @@ void expand_row(const T* x, std::size_t narrow, const std::array<Vector<T>, kMax
 template <typename T>
 void forward(DepthwiseShape shape, std::size_t narrow, const T* x, float epsilon,
              const float* expansion_weights, Norm first, const float* weights, Norm second,
-             double* gram_values, T* slid, T* y) {
+             double* gram_values, T* convolved, T* y) {
   const Geometry g(shape);
   const Expansion expansion = {shape.channels, narrow, expansion_weights};
   const Gram gram = {narrow, gram_values};
@@ -124,17 +124,17 @@ void forward(DepthwiseShape shape, std::size_t narrow, const T* x, float epsilon
       const std::size_t count = std::min(kLanes, shape.channels - c);
       const auto by_input = expansion.by_input<T>(c, count);
       Lanes values = {}, squares = {};
-      slide(g, seen, kernel_of(weights, shape.channels, c, count),
-            slid + i * g.out_pixels() * shape.channels + c, count, values, squares,
-            [&](std::size_t row) {
-              expand_row(picture + row * shape.width * narrow, narrow, by_input, shape.width, line,
-                         c, seen.inner(row), seen.inner(row));
-            });
+      convolve(g, seen, kernel_of(weights, shape.channels, c, count),
+               convolved + i * g.out_pixels() * shape.channels + c, count, values, squares,
+               [&](std::size_t row) {
+                 expand_row(picture + row * shape.width * narrow, narrow, by_input, shape.width,
+                            line, c, seen.inner(row), seen.inner(row));
+               });
       sums.add(c, count, values, squares);
     }
   }
   set_moments(sums, g.out().pixels, shape.channels, epsilon, second);
-  normalise(slid, g.out(), Line(shape.channels, second), kRelu6, y);
+  normalise(convolved, g.out(), Line(shape.channels, second), kRelu6, y);
 }
 
 struct Gradients {
@@ -267,14 +267,14 @@ class ExpansionBackward {
 };
 
 template <typename T>
-void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x, const T* slid,
+void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x, const T* convolved,
               const float* expansion_weights, Norm first, const float* weights, Norm second,
               double* gram_values, T* dx, Gradients out) {
   const Geometry g(shape);
   const Expansion expansion = {shape.channels, narrow, expansion_weights};
   const Gram gram = {narrow, gram_values};
   const Line line(shape.channels, first);
-  const OutputGradient<T> slope(g, dy, slid, second, out.second_weight, out.second_bias);
+  const OutputGradient<T> slope(g, dy, convolved, second, out.second_weight, out.second_bias);
   PerChannel<float> mean = {};
   std::copy_n(first.mean, shape.channels, mean.begin());
   Rows expanded(g), seen(g), gradient(g);
@@ -287,7 +287,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
     expansion_backward.begin_image(picture);
     for (std::size_t c = 0; c < shape.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, shape.channels - c),
-                        slid_picture = i * g.out_pixels() * shape.channels + c;
+                        convolved_image = i * g.out_pixels() * shape.channels + c;
       const auto by_input = expansion.by_input<T>(c, count);
       expansion_backward.begin_channels(c, count, line);
       Kernel dkernel = {};
@@ -295,7 +295,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
       slide_backward(
           g, seen, gradient, kernel_of(weights, shape.channels, c, count), dkernel,
           [&](std::size_t pixel) {
-            return slope.at(slid_picture + pixel * shape.channels, c, count);
+            return slope.at(convolved_image + pixel * shape.channels, c, count);
           },
           [&](std::size_t row) {
             expand_row(picture + row * shape.width * narrow, narrow, by_input, shape.width, line, c,
@@ -332,27 +332,27 @@ extern "C" {
 
 void expanded_unit_forward(const DepthwiseShape* shape, std::size_t narrow, int half, const void* x,
                            float epsilon, const float* expansion, Norm first, const float* weights,
-                           Norm second, double* gram, void* slid, void* y) {
+                           Norm second, double* gram, void* convolved, void* y) {
   if (half != 0) {
     forward(*shape, narrow, static_cast<const BFloat16*>(x), epsilon, expansion, first, weights,
-            second, gram, static_cast<BFloat16*>(slid), static_cast<BFloat16*>(y));
+            second, gram, static_cast<BFloat16*>(convolved), static_cast<BFloat16*>(y));
   } else {
     forward(*shape, narrow, static_cast<const float*>(x), epsilon, expansion, first, weights,
-            second, gram, static_cast<float*>(slid), static_cast<float*>(y));
+            second, gram, static_cast<float*>(convolved), static_cast<float*>(y));
   }
 }
 
 void expanded_unit_backward(const DepthwiseShape* shape, std::size_t narrow, int half,
-                            const void* dy, const void* x, const void* slid, const float* expansion,
-                            Norm first, const float* weights, Norm second, double* gram, void* dx,
-                            Gradients out) {
+                            const void* dy, const void* x, const void* convolved,
+                            const float* expansion, Norm first, const float* weights, Norm second,
+                            double* gram, void* dx, Gradients out) {
   if (half != 0) {
     backward(*shape, narrow, static_cast<const BFloat16*>(dy), static_cast<const BFloat16*>(x),
-             static_cast<const BFloat16*>(slid), expansion, first, weights, second, gram,
+             static_cast<const BFloat16*>(convolved), expansion, first, weights, second, gram,
              static_cast<BFloat16*>(dx), out);
   } else {
     backward(*shape, narrow, static_cast<const float*>(dy), static_cast<const float*>(x),
-             static_cast<const float*>(slid), expansion, first, weights, second, gram,
+             static_cast<const float*>(convolved), expansion, first, weights, second, gram,
              static_cast<float*>(dx), out);
   }
 }

@@ -39,7 +39,7 @@ class Fused(torch.autograd.Function):
         x, kernel = by_pixel(x), weights.flatten(1).T.contiguous()
         n, narrow, h, w = x.shape
         out = [(side + 2 * padding - 3) // stride + 1 for side in (h, w)]
-        slid, y = (torch.empty(n, len(expansion), *out, dtype=x.dtype, memory_format=torch.channels_last)
+        convolved, y = (torch.empty(n, len(expansion), *out, dtype=x.dtype, memory_format=torch.channels_last)
                    for _ in range(2))
         first = [first_weight, first_bias, torch.empty_like(first_weight), torch.empty_like(first_weight)]
         second = [second_weight, second_bias, torch.empty_like(second_weight), torch.empty_like(second_weight)]
@@ -48,8 +48,8 @@ class Fused(torch.autograd.Function):
         native().expanded_unit_forward(Shape(n, h, w, len(expansion), stride, padding), narrow,
                                        x.dtype == torch.bfloat16, address(x),
                                        epsilon, address(expansion), norm(*first), address(kernel), norm(*second),
-                                       *map(address, (gram, slid, y)))
-        ctx.save_for_backward(x, slid, expansion, kernel, gram, *first, *second)
+                                       *map(address, (gram, convolved, y)))
+        ctx.save_for_backward(x, convolved, expansion, kernel, gram, *first, *second)
         ctx.stride, ctx.padding, ctx.kernel_shape = stride, padding, weights.shape
         moments = first[2:] + second[2:]
         ctx.mark_non_differentiable(*moments)
@@ -57,13 +57,13 @@ class Fused(torch.autograd.Function):
 
     @staticmethod
     def backward(ctx, dy, *_):
-        x, slid, expansion, kernel, gram, *norms = ctx.saved_tensors
+        x, convolved, expansion, kernel, gram, *norms = ctx.saved_tensors
         dy, dx = by_pixel(dy), torch.empty_like(x)
         gradients = [torch.empty_like(p) for p in (expansion, norms[0], norms[1], kernel, norms[4], norms[5])]
         n, narrow, h, w = x.shape
         native().expanded_unit_backward(Shape(n, h, w, len(expansion), ctx.stride, ctx.padding), narrow,
                                         x.dtype == torch.bfloat16,
-                                        *map(address, (dy, x, slid, expansion)), norm(*norms[:4]), address(kernel),
+                                        *map(address, (dy, x, convolved, expansion)), norm(*norms[:4]), address(kernel),
                                         norm(*norms[4:]),
                                         address(gram), address(dx), Gradients(*map(address, gradients)))
         gradients[0] = gradients[0].view(*gradients[0].shape, 1, 1)
