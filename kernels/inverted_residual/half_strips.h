@@ -31,7 +31,7 @@ inline HalfProduct half_expansion(const InvertedResidualArgs& a, const StripPart
   return product;
 }
 
-// Where to write them.
+// The rows of the strip that the expansion writes.
 inline StripRows strip_rows(const InvertedResidualArgs& a, const StripPart& part, Half* y) {
   return {y, part.panel_elems, part.row_elems, a.in_w};
 }

@@ -29,7 +29,7 @@ def deflated(data):
 
 
 def fields(info, packed):
-    """What both headers of an entry have in common, after their magic numbers and versions."""
+    """The fields that both headers of an entry share, after their magic numbers and versions."""
     year, month, day, hour, minute, second = info.date_time
     time, date = hour << 11 | minute << 5 | second // 2, (year - 1980) << 9 | month << 5 | day
     sizes = len(packed), info.file_size, len(info.filename), 0
