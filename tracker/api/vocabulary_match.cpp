@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "formats/vocabulary/plain_name.h"
 #include "formats/vocabulary/vocabulary.h"
 #include "tracker/api/vocabulary_tables.h"
 
@@ -23,45 +24,8 @@ constexpr std::array<std::string_view, kVrm0Rows.size()> kVroidNames = {
     "Fcl_MTH_A",   "Fcl_MTH_I",       "Fcl_MTH_U",      "Fcl_MTH_E",
     "Fcl_MTH_O",   "Fcl_EYE_Close_L", "Fcl_EYE_Close_R"};
 
-// The letters and digits of a name in lower case, with sides spelled out (_L is left), and without
-// what precedes a dot, colon or bar.
-class PlainName {
- public:
-  explicit PlainName(std::string_view name) {
-    if (const std::size_t mark = name.find_last_of(".:|"); mark != std::string_view::npos) {
-      name.remove_prefix(mark + 1);
-    }
-    std::string_view side;
-    if (name.size() > 1 && name[name.size() - 2] == '_') {
-      const char last = formats::to_lower(name.back());
-      side = last == 'l' ? "left" : last == 'r' ? "right" : "";
-    }
-    append(side.empty() ? name : name.substr(0, name.size() - 1));
-    append(side);
-  }
-  // Empty if the name is longer than any of a vocabulary.
-  [[nodiscard]] std::string_view text() const {
-    return size_ <= text_.size() ? std::string_view(text_.data(), size_) : std::string_view();
-  }
-
- private:
-  void append(std::string_view name) {
-    for (const char letter : name) {
-      const char lower = formats::to_lower(letter);
-      if ((lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9')) {
-        if (size_ < text_.size()) {
-          text_[size_] = lower;
-        }
-        ++size_;
-      }
-    }
-  }
-  std::array<char, 32> text_ = {};
-  std::size_t size_ = 0;
-};
-
 bool is_spelling(std::string_view name, std::string_view plain) {
-  return PlainName(name).text() == plain;
+  return formats::PlainName(name).text() == plain;
 }
 
 // With a prefix, or as Ready Player Me spells it.
@@ -80,7 +44,7 @@ bool is_viseme(std::size_t viseme, std::string_view plain) {
 
 // The index in the vocabulary; -1 if the name is not in it.
 std::int32_t index_of(const char* name, std::int32_t vocabulary) {
-  const PlainName plain_name{std::string_view(name)};
+  const formats::PlainName plain_name{std::string_view(name)};
   const std::string_view plain = plain_name.text();
   if (plain.empty()) {
     return -1;

@@ -6,16 +6,20 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "apps/mien/avatar/names.h"
 #include "apps/mien/outputs/vocabulary_values.h"
 #include "apps/mien/system/failure.h"
+#include "formats/vocabulary/plain_name.h"
 
 namespace mien::app {
 namespace {
 
 constexpr std::size_t kMinArkitNames = 20;  // of a VRM with "perfect sync"
 
-// The drivers of a vocabulary, by plain name (names.h).
+std::string plain_name(const std::string& name) {
+  return std::string(formats::PlainName(name).text());
+}
+
+// The drivers of a vocabulary, by plain name.
 Drivers table(int vocabulary) {
   Drivers drivers;
   for (std::int32_t i = 0; i < mien_vocabulary_size(vocabulary); ++i) {

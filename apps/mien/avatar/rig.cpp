@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "apps/mien/avatar/names.h"
+#include "formats/vocabulary/plain_name.h"
 
 namespace mien::app {
 namespace {
@@ -92,8 +92,9 @@ class Tree {
   [[nodiscard]] std::optional<Bone> named(const std::vector<std::string>& names) const {
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const std::string name = plain_name(nodes_.at(i).value("name", ""));
-      const bool matches = std::find(names.begin(), names.end(), name) != names.end();
+      const std::string name = nodes_.at(i).value("name", "");
+      const formats::PlainName plain(name);
+      const bool matches = std::find(names.begin(), names.end(), plain.text()) != names.end();
       if (matches && (!found || (bones_[i] && !bones_[*found]))) {
         found = i;
       }
