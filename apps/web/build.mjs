@@ -1,7 +1,7 @@
 // Builds the page in dist/: node build.mjs WASM_FILE
 import {createHash} from 'node:crypto';
 import {cp, mkdir, readFile, readdir, rm, stat, writeFile} from 'node:fs/promises';
-import {build} from 'esbuild';
+import {bundled} from './bundle.mjs';
 import {writeDecoders} from './decoders.mjs';
 
 const here = new URL('.', import.meta.url).pathname, root = new URL('../..', import.meta.url).pathname;
@@ -9,15 +9,8 @@ const out = here + 'dist/';
 const wasm = process.argv[2] ?? root + 'build/wasm-page/tracker/mien.wasm';
 const plain = ['index.html', 'theme.css', 'style.css', 'icon.svg', 'manifest.webmanifest'];
 
-// After minification, line breaks are in template literals, mostly shaders: removes their indentation and comment
-// lines.
-const plainLines = text => text.replace(/\n\s*\/\/.*/g, '').replace(/\n\s+/g, '\n');
-
 async function bundle(entries, options = {}) {
-  const {outputFiles} = await build({
-    entryPoints: entries, outdir: out, bundle: true, format: 'esm', target: 'es2022', minify: true, legalComments: 'none',
-    absWorkingDir: here, logLevel: 'warning', write: false, ...options});
-  for (const {path, text} of outputFiles) await writeFile(path, plainLines(text));
+  for (const {path, text} of await bundled(entries, {outdir: out, format: 'esm', ...options})) await writeFile(path, text);
 }
 
 async function listFiles(folder, prefix = '') {

@@ -38,8 +38,10 @@ for path in map(Path, subprocess.run(["git", "ls-files", "*requirements.txt"], c
             wrong.append(f"{path}: {line.split()[0]}: no version")
         if path.name == "wheel_requirements.txt" and not line.startswith("#") and "--hash=sha256:" not in line:
             wrong.append(f"{path}: {line.split()[0]}: no hash")
-# Debian: third_party.txt names the packages that are compiled into programs.
+# third_party.txt names the packages that are compiled into programs: those of npm in reports, and those of Debian.
 named = Path("apps/third_party.txt").read_text()
+wrong += [f"apps/third_party.txt: {name}: not named" for name in json.loads(Path("apps/web/package.json").read_text())["dependencies"]
+          if name.split("/")[-1] not in named]
 titles = {"CLI": "CLI11", "nlohmann": "JSON for Modern C++", "stb": "stb_easy_font"}
 system = {"mien", "netinet", "sanitizer", "sys"}
 included = subprocess.run(["git", "grep", "-hoP", r"^#include <\K\w+(?=/)", "--", "apps/mien", "apps/conformance"],

@@ -15,6 +15,8 @@ from pathlib import Path
 
 # Headers that are compiled into the programs, by their Debian packages; the library has nothing but the standard library.
 IN_PROGRAMS = {"libcli11-dev": ("CLI11", "BSD-3-Clause"), "nlohmann-json3-dev": ("nlohmann-json", "MIT"), "libstb-dev": ("stb", "MIT OR Unlicense")}
+# npm packages in the viewer of reports (apps/web/viewer.mjs).
+IN_REPORTS = ("three", "@pixiv/three-vrm")
 WITH_PROGRAMS = re.compile(rf"\.deb$|\.whl$|-linux-{os.uname().machine}\.tar\.gz$|-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
 # Libraries that Zig links statically, with the version of its PyPI package; zlib is Debian's source.
 BY_ZIG = re.compile(r"-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
@@ -45,7 +47,9 @@ def document(version, folder):
     mien = package("mien", version, "Apache-2.0")
     linked = [package(name, f"of ziglang {zig_version()}", licence) for name, licence in IN_ZIG.items()]
     linked.append(package("zlib", debian_version("zlib1g"), "Zlib"))
-    parts = {name: package(title, debian_version(name), licence) for name, (title, licence) in IN_PROGRAMS.items()}
+    parts = [package(title, debian_version(name), licence) for name, (title, licence) in IN_PROGRAMS.items()]
+    npm = json.loads((Path(__file__).parents[2] / "apps/web/package.json").read_text())["dependencies"]
+    parts += [package(name, npm[name], "MIT") for name in IN_REPORTS]
     artifacts, relations, used = [], [], []
     for path in files:
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
@@ -53,7 +57,7 @@ def document(version, folder):
                            checksums=[{"algorithm": "SHA256", "checksumValue": digest}])
         artifacts.append(artifact)
         relations.append(relation(artifact, "GENERATED_FROM", mien))
-        contained = [*parts.values()] * bool(WITH_PROGRAMS.search(path.name)) + linked * bool(BY_ZIG.search(path.name))
+        contained = parts * bool(WITH_PROGRAMS.search(path.name)) + linked * bool(BY_ZIG.search(path.name))
         relations += [relation(artifact, "CONTAINS", part) for part in contained]
         used += [part for part in contained if part not in used]
     described = {"SPDXID": "SPDXRef-DOCUMENT"}

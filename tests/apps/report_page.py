@@ -69,7 +69,16 @@ class Report:
                 for i in range(count)]
 
     def export(self, name):
+        if name == "gltf" and "export-gltf" not in self.page.blocks:
+            return self.gltf_of(self.export("glb"))
         return unpack(self.page.blocks["export-" + name])
+
+    @staticmethod
+    def gltf_of(glb):
+        """The file with its binary chunk as text."""
+        length = struct.unpack_from("<I", glb, 12)[0]
+        uri = b"data:application/octet-stream;base64," + base64.b64encode(glb[28 + length:])
+        return glb[20:20 + length].rstrip().removesuffix(b"}]}") + b',"uri":"' + uri + b'"}]}\n'
 
     def allowed(self, kind):
         """The hashes of scripts or styles in the page's policy."""

@@ -17,6 +17,7 @@ import time
 import unittest
 
 import chromium
+import report_browser
 import report_page
 
 MIEN = None
@@ -156,12 +157,13 @@ class Contents(unittest.TestCase):
             self.assertFalse(name.startswith("on"), (tag, name))
             self.assertNotEqual(name, "style")
 
-    def test_the_policy_permits_only_this_script_and_style(self):
+    def test_the_policy_permits_only_these_scripts_and_this_style(self):
         blocks = self.report.page.blocks
-        self.assertEqual(self.report.allowed("script"), [report_page.hash_of(blocks["script"])])
+        viewer = report_page.unpack(blocks["viewer"]).decode()
+        self.assertEqual(self.report.allowed("script"), [report_page.hash_of(blocks["script"]), report_page.hash_of(viewer)])
         self.assertEqual(self.report.allowed("style"), [report_page.hash_of(blocks["style"])])
         self.assertIn("default-src 'none'", self.report.page.policy)
-        self.assertNotIn("unsafe", self.report.page.policy)
+        self.assertNotIn("'unsafe-", self.report.page.policy)
 
     def test_a_large_clip_is_stored_beside_the_page(self):
         mien("track", Folder.file(HOSTILE), "--duration", "0.2", "--quiet", "--report", Folder.file("b#side.html"), "--report-clip-mb", "0.001")
@@ -202,56 +204,9 @@ class Contents(unittest.TestCase):
         self.assertEqual(again()["outcome"], "done")
 
 
-@unittest.skipUnless(chromium.find(), "SKIPPED: the page was NOT tested in a browser: chromium is not installed")
-class Page(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = chromium.Chromium(chromium.find())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-
-    def setUp(self):
-        self.browser.complaints.clear()
-        self.browser.requests.clear()
-
-    def tearDown(self):
-        self.assertEqual(self.browser.complaints, [])
-        self.assertEqual([url for url in self.browser.requests if not url.startswith(("file:", "blob:", "data:"))], [])
-
-    def js(self, script):
-        return self.browser.evaluate(script)
-
-    def wait(self, condition, what):
-        deadline = time.monotonic() + 60
-        while not self.js(condition):
-            self.assertLess(time.monotonic(), deadline, what)
-            time.sleep(0.05)
-
-    def open(self, page="report.html", width=1280, height=900, dark=False):
-        self.browser.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
-        self.browser.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        self.browser.open(Folder.file(page))
-        self.wait("!!report.whole_ms", "the page does not open")
-
-    def press(self, key, code=None):
-        for kind in ("keyDown", "keyUp"):
-            self.browser.send("Input.dispatchKeyEvent", type=kind, key=key, code=code or key, **({"text": key} if len(key) == 1 and kind == "keyDown" else {}))
-
-    def seek(self, t_ms):
-        self.js(f"report.player.seek({t_ms})")
-        self.wait(f"Math.abs(report.player.clock.time_ms - {t_ms}) < 2 && !document.getElementById('video').seeking", "seeking")
-        self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
-
-    def drawn(self, canvas, first=""):
-        """The number of non-empty pixels of a canvas after `first`, because WebGL keeps its content only until the browser displays it."""
-        return self.js(f"""(() => {{
-          {first}
-          const canvas = document.querySelector('{canvas}'), {{width, height}} = canvas;
-          const copy = Object.assign(document.createElement('canvas'), {{width, height}}).getContext('2d', {{willReadFrequently: true}});
-          copy.drawImage(canvas, 0, 0);
-          return copy.getImageData(0, 0, width, height).data.filter((value, i) => i % 4 === 3 && value).length; }})()""")
+@unittest.skipUnless(chromium.find(), report_browser.SKIPPED)
+class Page(report_browser.PageTest):
+    folder = Folder
 
     def test_shows_the_recording(self):
         self.open()
@@ -353,8 +308,7 @@ class Page(unittest.TestCase):
     def test_a_phone_shows_clip_face_and_controls_together(self):
         for width, height in ((390, 670), (390, 844), (844, 390)):
             self.open(width=width, height=height)
-            boxes = {id: self.js(f"(({{top, bottom, left, right}}) => [left, top, right, bottom])(document.getElementById('{id}').getBoundingClientRect())")
-                     for id in ("picture", "face", "transport")}
+            boxes = {id: self.box("#" + id) for id in ("picture", "face", "transport")}
             shape = f"{width} x {height}: {boxes}"
             self.assertLessEqual(max(box[3] for box in boxes.values()), height, shape)
             self.assertGreaterEqual(boxes["transport"][1], max(boxes[id][3] for id in ("picture", "face")), shape)
@@ -392,14 +346,15 @@ class Page(unittest.TestCase):
         self.open()
         folder = tempfile.mkdtemp(dir=Folder.path)
         self.browser.save_downloads(folder)
-        self.js("document.querySelector('[data-format=glb]').click()")
-        deadline = time.monotonic() + 30
-        while not (files := glob.glob(os.path.join(glob.escape(folder), "*.glb"))):
-            self.assertLess(time.monotonic(), deadline, "no download")
-            self.js("1")
-            time.sleep(0.05)
-        with open(files[0], "rb") as file:
-            self.assertEqual(file.read(), Folder.bytes("x.glb"))
+        for name in ("glb", "gltf"):  # the page makes the second from the first
+            self.js(f"document.querySelector('[data-format={name}]').click()")
+            deadline = time.monotonic() + 30
+            while not (files := glob.glob(os.path.join(glob.escape(folder), "*." + name))):
+                self.assertLess(time.monotonic(), deadline, "no download")
+                self.js("1")
+                time.sleep(0.05)
+            with open(files[0], "rb") as file:
+                self.assertEqual(file.read(), Folder.bytes("x." + name))
 
     def test_a_clip_beside_the_page(self):
         mien("track", CLIP, "--duration", "0.3", "--quiet", "--report", Folder.file("large #1.html"), "--report-clip-mb", "0")

@@ -41,8 +41,8 @@ void add_writing_options(CLI::App& verb, animation::WriteOptions& options) {
 
 void add_avatar(CLI::App& verb, std::string& avatar) {
   verb.add_option("--avatar", avatar,
-                  "avatar (.glb, .vrm) that a .glb output contains, moved by its morph targets, "
-                  "head and eyes");
+                  "avatar (.glb, .vrm) that .glb outputs and reports contain, moved by its morph "
+                  "targets, head and eyes");
 }
 
 }  // namespace mien::app

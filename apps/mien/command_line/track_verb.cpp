@@ -111,7 +111,9 @@ void run(TrackOptions& options, BatchOptions& batch) {
   options.animation.writing.several_faces = options.max_faces > 1;
   options.animation.writing.audio_file =
       without_credentials(options.audio.empty() ? options.input : options.audio);
-  if (options.max_faces > 1 && (batch.reports || !options.report.empty())) {
+  const bool reports = batch.reports || !options.report.empty();
+  options.animation.avatar_in_report = reports;
+  if (options.max_faces > 1 && reports) {
     throw Failure(kExitUsage, "--max-faces: a report shows a single face");
   }
   if (batch.out.empty()) {

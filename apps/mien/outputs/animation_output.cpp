@@ -99,8 +99,9 @@ std::vector<AnimationTarget> targets(const AnimationOptions& options) {
   const bool takes_avatar = std::any_of(
       selected.begin(), selected.end(),
       [](const AnimationTarget& target) { return target.format == AnimationFormat::kGlb; });
-  if (!options.avatar.empty() && !takes_avatar) {
-    throw Failure(kExitUsage, "--avatar: no output for it (expected a .glb file)");
+  if (!options.avatar.empty() && !takes_avatar && !options.avatar_in_report) {
+    throw Failure(kExitUsage,
+                  "--avatar: no output for it (expected a .glb file, or a report of mien track)");
   }
   return selected;
 }

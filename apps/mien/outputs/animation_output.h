@@ -18,7 +18,8 @@ struct AnimationOptions {
   std::vector<std::string> files;    // empty: standard output
   std::vector<std::string> formats;  // format names; empty: selected by the endings of `files`
   animation::WriteOptions writing;
-  std::string avatar;  // file into which .glb files bake the animation; empty: none
+  std::string avatar;             // file into which .glb files bake the animation; empty: none
+  bool avatar_in_report = false;  // which needs no .glb file
   const char* format_option = "--format";  // the option's name in messages
 };
 

@@ -29,6 +29,7 @@ ReportOptions report_options(const TrackOptions& options, const VideoInfo& info)
           .rotation = options.rotation,
           .max_clip_bytes = options.report_clip_mb * 1e6,
           .name = name_of(path_of(without_credentials(options.input)).filename()),
+          .avatar = options.animation.avatar,
           .width = info.width,
           .height = info.height,
           .writing = options.animation.writing};

@@ -1,21 +1,22 @@
 // Writes animations in all formats.
 #include "apps/mien/report/exports.h"
 
+#include <utility>
+
 #include "apps/mien/pages/packed_text.h"
 
 namespace mien::app {
 namespace {
 
-PackedText written(const std::vector<animation::Frame>& frames, animation::AnimationFormat format,
-                   const animation::WriteOptions& writing) {
-  const auto writer = animation::animation_writer(format, writing);
-  PackedText text;
-  text.write(writer->begin());
+// Passes the file to `take` in parts.
+template <typename Take>
+void write(const std::vector<animation::Frame>& frames, animation::AnimationWriter& writer,
+           Take take) {
+  take(writer.begin());
   for (const animation::Frame& frame : frames) {
-    text.write(writer->frame(frame));
+    take(writer.frame(frame));
   }
-  text.write(writer->finish());
-  return text;
+  take(writer.finish());
 }
 
 }  // namespace
@@ -25,15 +26,31 @@ std::string block(const std::string& id, const std::string& base64) {
 }
 
 Exports exports_of(const std::vector<animation::Frame>& frames,
-                   const animation::WriteOptions& writing, const std::string& stem) {
+                   const animation::WriteOptions& writing, const std::string& stem,
+                   std::unique_ptr<animation::AnimationWriter> glb) {
+  using animation::AnimationFormat;
   Exports exports;
+  const bool glb_holds_gltf = glb == nullptr;  // the same avatar, from which the page makes .gltf
   for (const animation::FormatName& format : animation::kFormatNames) {
-    PackedText text = written(frames, format.format, writing);
+    auto writer = format.format == AnimationFormat::kGlb && glb
+                      ? std::move(glb)
+                      : animation::animation_writer(format.format, writing);
+    std::uint64_t bytes = 0;
+    PackedText packed;
+    const bool stored = format.format != AnimationFormat::kGltf || !glb_holds_gltf;
+    write(frames, *writer, [&](const std::string& part) {
+      bytes += part.size();
+      if (stored) {
+        packed.write(part);
+      }
+    });
     exports.list.push_back({{"format", format.name},
                             {"file", stem + std::string(format.ending)},
                             {"holds", format.holds},
-                            {"bytes", text.bytes()}});
-    exports.blocks += block("export-" + std::string(format.name), text.finish());
+                            {"bytes", bytes}});
+    if (stored) {
+      exports.blocks += block("export-" + std::string(format.name), packed.finish());
+    }
   }
   return exports;
 }

@@ -15,30 +15,6 @@ function showFacts(take) {
   ].filter(Boolean).join(' · ');
 }
 
-// The face of frame i; neutral before the first.
-function faceOf(take, i) {
-  const value = name => take.column(name).at(i) ?? 0;
-  return {controls: Object.fromEntries(controlNames.map(name => [name, value(name)])), pitch: value('pitch'), yaw: value('yaw'), roll: value('roll')};
-}
-
-// Draws on its own canvas instead of drawFace, so that nothing waits for it.
-class FaceView {
-  constructor(take) {
-    Object.assign(this, {take, canvas: document.getElementById('face'), note: document.getElementById('face-note'), trouble: ''});
-    try {
-      this.avatar = new Avatar(this.canvas);
-    } catch (problem) {
-      this.trouble = problem.message;
-    }
-  }
-  show(i) {
-    const status = statusNames[this.take.column('status').at(i)] ?? 'searching';
-    this.canvas.classList.toggle('absent', data.width > 0 && status !== 'tracking');
-    this.note.textContent = this.trouble || (data.width && status !== 'tracking' ? status : 'tracked face');
-    this.avatar?.draw(faceOf(this.take, i));
-  }
-}
-
 // Zooms to an interval, with some time around it.
 function goTo({start_ms, end_ms}) {
   const {view, player} = report;
@@ -117,7 +93,7 @@ async function open() {
   player.show();
   report.opened_ms = performance.now();
   if (document.readyState === 'loading') await new Promise(done => document.addEventListener('DOMContentLoaded', done));
-  await clip.open(player);
+  await Promise.all([clip.open(player), face.openContained()]);
   report.whole_ms = performance.now();
 }
 open();

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "apps/animation/base64.h"
+#include "apps/mien/avatar/avatar.h"
 #include "apps/mien/pages/packed_text.h"
 #include "apps/mien/pages/page_sources.h"
 #include "apps/mien/pages/page_text.h"
@@ -81,6 +83,9 @@ Report::Report(const ReportOptions& options) : options_(options), file_(options.
   landmark_unit_ = std::max({options.width, options.height, 1}) / 8192.0;
   if (!options.video.empty() || !options.audio.empty()) {
     clip_file_.emplace(clip_beside(options.page), TemporaryFile::Ending::kAny);
+  }
+  if (!options.avatar.empty()) {
+    glb_ = avatar_writer(options.avatar);
   }
 }
 
@@ -182,6 +187,7 @@ ordered_json Report::facts(const StageTimes& times, const Clip& clip) const {
   facts["sound_bin_ms"] = static_cast<double>(Waveform::kBinNs) * 1e-6;
   facts["clip"] = clip.bytes.empty() ? clip.beside.empty() ? "none" : "beside" : "in page";
   facts["clip_file"] = clip.beside;
+  facts["avatar"] = name_of(path_of(options_.avatar).filename());
   facts["stages"] = stages_json(times);
   return facts;
 }
@@ -192,13 +198,16 @@ void Report::finish(const StageTimes& times) {
   const Columns columns = this->columns();
   facts["columns"] = columns.list();
   const std::string stem = name_of(path_of(options_.name).stem());
-  const Exports exports = exports_of(frames_, options_.writing, stem.empty() ? "face" : stem);
+  const Exports exports =
+      exports_of(frames_, options_.writing, stem.empty() ? "face" : stem, std::move(glb_));
   facts["exports"] = exports.list;
-  file_.write(filled(kReportPage, {{"@DATA@", script_text(facts)},
+  file_.write(filled(kReportPage, {{"@VIEWER_HASH@", kViewerHash},
+                                   {"@DATA@", script_text(facts)},
                                    {"@COLUMNS@", animation::base64(columns.bytes())},
                                    {"@AVATAR@", kAvatarScript},
                                    {"@BLOCKS@", block("landmarks", packed_landmarks()) +
                                                     block("clip", animation::base64(clip.bytes)) +
+                                                    block("viewer", animation::base64(kViewer)) +
                                                     exports.blocks}}));
   file_.finish();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <mien/mien.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "apps/animation/animation.h"
+#include "apps/animation/writer.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/report/columns.h"
 #include "apps/mien/report/waveform.h"
@@ -24,6 +26,7 @@ struct ReportOptions {
   std::optional<int> rotation;   // degrees clockwise; overrides that of `video`
   double max_clip_bytes = 64e6;  // a larger clip is stored beside the page
   std::string name;              // of the input
+  std::string avatar;            // of the user: file; empty: mien's
   int width = 0, height = 0;     // of the image, pixels
   animation::WriteOptions writing;
 };
@@ -39,7 +42,7 @@ class Report {
   void frame(const animation::Frame& frame, const Result& result);
   void push_audio(const Audio& block, std::int64_t pts_ns) { waveform_.push_audio(block, pts_ns); }
 
-  // Also transcodes the clip; throws the exceptions of `web_video`.
+  // Also transcodes the clip; throws the exceptions of `web_video`. Call it once.
   void finish(const StageTimes& times);
 
  private:
@@ -57,7 +60,8 @@ class Report {
 
   ReportOptions options_;
   OutputFile file_;  // opened first, so that an unwritable page fails before the work
-  std::optional<PartialFile> clip_file_;  // likewise; empty: no clip
+  std::optional<PartialFile> clip_file_;             // likewise; empty: no clip
+  std::unique_ptr<animation::AnimationWriter> glb_;  // likewise; nullptr: mien's avatar
   std::vector<animation::Frame> frames_;
   std::vector<double> took_ms_;  // per frame
   std::vector<std::int16_t>

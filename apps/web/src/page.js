@@ -181,7 +181,7 @@ class Page {
 
   async useModel(file) {
     try {
-      const {openModel} = await import('./model/model_avatar.js');
+      const {openModel} = await import('./model/page_model.js');
       await this.first.use(canvas => openModel(file, canvas));
       say(`${file.name}: ${this.first.avatar.targets.length} names of ${this.first.avatar.vocabularies.join(', ')}`);
       $('own-face').hidden = false;

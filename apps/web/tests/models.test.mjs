@@ -1,9 +1,12 @@
 // The user's own head: its names are recognized, and it moves.
 import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
 import {after, before, test} from 'node:test';
+import {inflateSync} from 'node:zlib';
 import {controlNames} from '../avatar/avatar.js';
 import {animationGlb} from '../src/recording/glb.js';
 import {morphDrivers} from '../../../bindings/js/matching.js';
+import {viewer, viewerFile} from '../viewer.mjs';
 import {bodyModel, dracoModel, headModel, ktx2Model, meshoptModel, vrmBodyModel, vrmModel} from './models.mjs';
 import {openPage, openStudio, until} from './page.mjs';
 
@@ -31,6 +34,12 @@ test("every control has a name, and the 47 of Roblox with a counterpart as well"
   for (const name of roblox) assert.ok(driver(name), name);
   assert.equal(driver('EyesLookLeft').of(controls({eyeLookOutLeft: 1, eyeLookInRight: 1})), 1);
   assert.equal(driver('RightCheekRaiser').of(controls({cheekSquintRight: 0.7})), 0.7);
+});
+
+test('reports contain the current viewer', async () => {
+  const {text, hash} = await viewer(), stale = 'apps/mien/report/viewer.js.z: not the viewer of apps/web (run node viewer.mjs)';
+  assert.ok(inflateSync(readFileSync(`${viewerFile}.z`)).toString() === text, stale);
+  assert.equal(readFileSync(`${viewerFile}.sha256`, 'utf8'), hash, stale);
 });
 
 let studio;

@@ -14,14 +14,14 @@ const boneNames = {
   leftUpperArm: /(left(upper)?arm|upperarml(eft)?|lupperarm)$/, rightUpperArm: /(right(upper)?arm|upperarmr(ight)?|rupperarm)$/};
 
 // Throws an error with a message for the user if the file is not usable.
-export async function openModel(file, canvas) {
+export async function openModel(file, canvas, makeDecoders) {
   const bytes = await file.arrayBuffer();
   if (new DataView(bytes).byteLength < 20 || new DataView(bytes).getUint32(0, true) !== 0x46546c67) {
     throw new Error(`${file.name}: not a binary glTF file (.glb or .vrm)`);
   }
   const renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
   try {
-    const gltf = await loadModel(bytes, renderer).catch(error => { throw new Error(`${file.name}: ${error.message}`); });
+    const gltf = await loadModel(bytes, renderer, makeDecoders).catch(error => { throw new Error(`${file.name}: ${error.message}`); });
     return new ModelAvatar(gltf, renderer, file.name);
   } catch (error) {
     renderer.dispose();
@@ -106,7 +106,7 @@ class ModelAvatar {
     const rotate = this.controls._rotateLeft.bind(this.controls);  // a mirrored view turns the other way
     this.controls._rotateLeft = angle => rotate(canvas.closest('.mirrored') ? -angle : angle);
     this.controls.addEventListener('change', () => this.onChange?.());
-    canvas.addEventListener('dblclick', () => this.controls.reset());
+    canvas.addEventListener('dblclick', () => this.resetView());
   }
 
   // The head alone, if the model has a body below it: the nodes on its bone if they have a face, or else everything above the bone.
@@ -146,6 +146,8 @@ class ModelAvatar {
     const parent = bone.node.parent.getWorldQuaternion(new Quaternion());
     bone.node.quaternion.copy(parent.clone().invert().multiply(turned).multiply(parent).multiply(bone.rest));
   }
+
+  resetView() { this.controls.reset(); }
 
   dispose() {
     this.controls.dispose();
