@@ -1,6 +1,10 @@
-// The avx2 tier of warp.
+// Neighbours of close positions are picked out of vectors of samples, because a gather takes longer
+// than loading several.
+#include <cmath>
+
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
+#include "kernels/image/loads_beyond.h"
 #include "kernels/image/tiles.h"
 
 namespace mien::kernels::avx2 {
@@ -8,9 +12,11 @@ namespace {
 
 struct Simd {
   static constexpr std::int32_t kLanes = avx2::kLanes;
+  static constexpr int kGroup = 4;    // lanes with a vector of samples of their own
+  static constexpr int kLoaded = 8;   // samples of a row
+  static constexpr int kMaxRows = 6;  // more take longer than gathers
   using Vec = __m256;
   using Ints = __m256i;
-  using Neighbours = tiles::Gathered<Simd>;
 
   static Vec splat(float x) { return _mm256_set1_ps(x); }
   static Vec load(const float* at) { return _mm256_loadu_ps(at); }
@@ -40,14 +46,125 @@ struct Simd {
     const Ints both = _mm256_sub_epi32(_mm256_slli_epi32(next, 16), next);
     return _mm256_add_epi32(both, _mm256_set1_epi32(tiles::kOne));
   }
-  static Vec gather(const std::uint16_t* base, Ints index, Weights weights) {
-    // A masked gather with an explicit source and a mask of all lanes that is computed, because
-    // otherwise the compiler uses any register as the source and each gather depends on it.
-    const Ints all = _mm256_cmpgt_epi32(index, _mm256_set1_epi32(-1));
-    const Ints pairs = _mm256_mask_i32gather_epi32(
-        _mm256_setzero_si256(), reinterpret_cast<const int*>(base), index, all, 2);
-    return _mm256_cvtepi32_ps(_mm256_madd_epi16(pairs, weights));
-  }
+
+  class Neighbours {
+   public:
+    struct Reach {
+      std::int32_t rows = 0;  // of upper neighbours of a group; 0: too far apart, so gathered
+      std::int32_t rows_beyond = 0;
+
+      Reach() = default;
+      Reach(float x, float y) {
+        constexpr float kRounding = 0.125f;  // positions in an image are exact to 2^-10
+        const float across = (kGroup - 1) * std::abs(x) + kRounding;
+        const float down = (kGroup - 1) * std::abs(y) + kRounding;
+        if (across < kLoaded - 2 && down < kMaxRows - 1) {  // false for NaN
+          rows = static_cast<std::int32_t>(down) + 2;
+          rows_beyond = rows - 1;
+        }
+      }
+    };
+
+    Neighbours() = default;
+    Neighbours(Vec column, Vec row, std::int32_t stride, Vec across, Reach reach)
+        : weights_(weights_of(across)), stride_(stride), rows_(reach.rows) {
+      const Vec left = least(column), top = least(row);
+      store(first_, to_ints(fma(left, top, splat(static_cast<float>(stride)))));
+      from_top_ = sub(row, top);
+      const Ints from_left = to_ints(sub(column, left));
+      order_ = rows_ > 0 ? bytes_of(from_left) : from_left;
+    }
+
+    template <int kCount>
+    void rows_of(const std::uint16_t* const* copies, Vec* upper, Vec* lower) const {
+      Ints above[kCount], below[kCount];
+      if (rows_ > 0) {
+        pick<kCount>(copies, above, below);
+      } else {
+        const Ints index = indices();
+        for (int c = 0; c < kCount; ++c) {
+          above[c] = gather(copies[c], index);
+          below[c] = gather(copies[c] + stride_, index);
+        }
+      }
+      for (int c = 0; c < kCount; ++c) {
+        upper[c] = interpolated(above[c]);
+        lower[c] = interpolated(below[c]);
+      }
+    }
+
+   private:
+    // In all lanes of a group the least of its lanes, which is the first or the last, because
+    // positions lie on a line.
+    static Vec least(Vec x) {
+      return min(_mm256_permute_ps(x, 0b00000000), _mm256_permute_ps(x, 0b11111111));
+    }
+
+    // The bytes of the pairs at these samples of a group's vector.
+    static Ints bytes_of(Ints samples) {
+      const Ints lowest = _mm256_setr_epi32(0x00000000, 0x04040404, 0x08080808, 0x0C0C0C0C,
+                                            0x00000000, 0x04040404, 0x08080808, 0x0C0C0C0C);
+      const Ints first = _mm256_shuffle_epi8(_mm256_add_epi32(samples, samples), lowest);
+      return _mm256_add_epi32(first, _mm256_set1_epi32(0x03020100));
+    }
+
+    static Ints samples(const std::uint16_t* copy, const std::ptrdiff_t* at) {
+      const auto load = [&](int group) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(copy + at[group]));
+      };
+      return _mm256_inserti128_si256(_mm256_castsi128_si256(load(0)), load(1), 1);
+    }
+
+    template <int kCount>
+    MIEN_LOADS_BEYOND void pick(const std::uint16_t* const* copies, Ints* above,
+                                Ints* below) const {
+      std::ptrdiff_t at[] = {first_[0], first_[kGroup]};
+      Ints here[kCount];
+      for (int c = 0; c < kCount; ++c) {
+        above[c] = below[c] = _mm256_setzero_si256();
+        here[c] = samples(copies[c], at);
+      }
+      const auto take = [&](int row) {
+        const Vec elsewhere = _mm256_cmp_ps(from_top_, splat(static_cast<float>(row)), _CMP_NEQ_OQ);
+        // Bytes with the highest bit select 0.
+        const Ints order = _mm256_or_si256(order_, _mm256_castps_si256(elsewhere));
+        at[0] += stride_, at[1] += stride_;
+        for (int c = 0; c < kCount; ++c) {
+          const Ints next = samples(copies[c], at);
+          above[c] = _mm256_or_si256(above[c], _mm256_shuffle_epi8(here[c], order));
+          below[c] = _mm256_or_si256(below[c], _mm256_shuffle_epi8(next, order));
+          here[c] = next;
+        }
+      };
+      take(0);
+      take(1);
+      for (int row = 2; row < rows_; ++row) {
+        take(row);
+      }
+    }
+
+    [[nodiscard]] Vec interpolated(Ints pairs) const {
+      return _mm256_cvtepi32_ps(_mm256_madd_epi16(pairs, weights_));
+    }
+    [[nodiscard]] Ints indices() const {
+      const Ints first = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(first_));
+      const Ints down = _mm256_mullo_epi32(to_ints(from_top_), _mm256_set1_epi32(stride_));
+      return _mm256_add_epi32(_mm256_add_epi32(first, down), order_);
+    }
+    static Ints gather(const std::uint16_t* base, Ints index) {
+      // A masked gather with an explicit source and a mask of all lanes that is computed, because
+      // otherwise the compiler uses any register as the source and each gather depends on it.
+      const Ints all = _mm256_cmpgt_epi32(index, _mm256_set1_epi32(-1));
+      return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), reinterpret_cast<const int*>(base),
+                                         index, all, 2);
+    }
+
+    Ints weights_;
+    Ints order_;    // bytes of the pairs in a vector of samples; to gather: columns from the first
+    Vec from_top_;  // rows from the first row of the group
+    std::int32_t first_[kLanes];  // first row and column of the group, as an index
+    std::int32_t stride_, rows_;
+  };
 
   // The lanes of each output vector hold every third value of each colour.
   static void store_rgb(float* at, Vec r, Vec g, Vec b) {

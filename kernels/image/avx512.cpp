@@ -2,18 +2,8 @@
 // than loading several rows.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
+#include "kernels/image/loads_beyond.h"
 #include "kernels/image/tiles.h"
-
-// Row loads may extend beyond a row to uninitialized values that are never used. clang's memory
-// sanitizer does not track single lanes through a permutation.
-#ifdef __has_feature
-#if __has_feature(memory_sanitizer)
-#define MIEN_LOADS_BEYOND __attribute__((no_sanitize("memory")))
-#endif
-#endif
-#ifndef MIEN_LOADS_BEYOND
-#define MIEN_LOADS_BEYOND
-#endif
 
 namespace mien::kernels::avx512 {
 namespace {
@@ -68,8 +58,10 @@ struct Simd {
 
   class Neighbours {
    public:
+    using Reach = tiles::Gathered<Simd>::Reach;
+
     Neighbours() = default;
-    Neighbours(Vec column, Vec row, std::int32_t stride, Vec across)
+    Neighbours(Vec column, Vec row, std::int32_t stride, Vec across, Reach)
         : rows_(to_ints(row)), weights_(weights_of(across)), stride_(stride), height_(rows_) {
       const Ints columns = to_ints(column);
       const Ends width(columns);

@@ -12,7 +12,8 @@ namespace mien::kernels::tiles {
 
 constexpr std::int32_t kMaxSums = 832;  // samples of an image row before the boxes are summed
 constexpr std::int32_t kMaxBox = 8;
-constexpr std::int32_t kPadding = 64;  // samples that vectors may write beyond the end
+constexpr std::int32_t kRowsAhead = 16;  // distance to rows of the image that are prefetched
+constexpr std::int32_t kPadding = 64;    // samples that vectors may write beyond the end
 
 namespace {
 
@@ -20,14 +21,20 @@ template <class Simd>
 class BoxSums {
  public:
   // Writes the copy row by row. Vectors may write beyond a row, which the next row then overwrites.
-  void fill(const Channel& channel, const Window& window, std::uint16_t* samples) {
+  // `shares_bytes`: another channel already read the bytes between this one's.
+  void fill(const Channel& channel, const Window& window, bool shares_bytes,
+            std::uint16_t* samples) {
     const std::int32_t count = window.columns * channel.box;
     const std::int32_t begin = window.left * channel.box;
     const std::int32_t first = std::clamp(begin, 0, channel.width - 1);
     const std::int32_t last = std::clamp(begin + count - 1, 0, channel.width - 1);
     const bool inside = last - first + 1 == count;
     for (std::int32_t r = 0; r < window.rows; ++r) {
-      const Rows rows = rows_of(channel, (window.top + r) * channel.box, first);
+      const std::int32_t top = (window.top + r) * channel.box;
+      const Rows rows = rows_of(channel, top, first);
+      if (!shares_bytes) {
+        prefetch(channel, rows_of(channel, top + kRowsAhead, first), last - first);
+      }
       std::uint16_t* row = samples + std::ptrdiff_t{r} * window.columns;
       const auto buffer = [&](std::int32_t n) { return n == window.columns ? row : sums_; };
       std::int32_t n = count;
@@ -62,6 +69,19 @@ class BoxSums {
                    first * channel.plane.pixel_bytes;
     }
     return rows;
+  }
+
+  // Requests rows that this tile or the next one reads soon: crops are narrow, so that CPUs do not
+  // recognize the sequence of addresses.
+  static void prefetch(const Channel& channel, const Rows& rows, std::ptrdiff_t columns) {
+    constexpr std::ptrdiff_t kCacheLine = 64;
+    const std::ptrdiff_t last = columns * channel.plane.pixel_bytes;
+    for (std::int32_t i = 0; i < channel.box; ++i) {
+      for (std::ptrdiff_t byte = 0; byte < last; byte += kCacheLine) {
+        __builtin_prefetch(rows.at[i] + byte);
+      }
+      __builtin_prefetch(rows.at[i] + last);
+    }
   }
 
   // Ways to read samples from a row of bytes: kSums at a time, or one.

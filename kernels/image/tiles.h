@@ -7,8 +7,10 @@
 //   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), sub, min, max, floor
 //   finite_or_0(Vec); equal(Vec, Vec): 0 if different; to_ints(Vec); store(std::int32_t*, Ints)
 //   Weights; weights_of(Vec): the interpolation weights of two neighbours, in units of 1 / kOne
-//   Neighbours(column, row, stride, across): the four neighbours of positions in a copy with
+//   Neighbours(column, row, stride, across, reach): the four neighbours of positions in a copy with
 //     `stride` samples per row; rows_of<kCount>(copies): interpolates the upper and the lower row
+//   Neighbours::Reach(x, y): of positions this far apart from lane to lane; rows_beyond: rows of a
+//     copy that may be read below the neighbours
 //   store_rgb(float*, Vec red, Vec green, Vec blue): kLanes pixels, interleaved
 // and with vectors of kSums 16-bit integers:
 //   Sums; load_sums, store_sums, add_sums
@@ -44,8 +46,14 @@ class Gathered {
  public:
   using Vec = typename Simd::Vec;
 
+  struct Reach {
+    static constexpr std::int32_t rows_beyond = 0;
+    Reach() = default;
+    Reach(float, float) {}
+  };
+
   Gathered() = default;
-  Gathered(Vec column, Vec row, std::int32_t stride, Vec across)
+  Gathered(Vec column, Vec row, std::int32_t stride, Vec across, Reach)
       : index_(Simd::to_ints(Simd::fma(column, row, Simd::splat(static_cast<float>(stride))))),
         weights_(Simd::weights_of(across)),
         stride_(stride) {}
@@ -67,19 +75,36 @@ class Gathered {
 template <class Simd>
 class Warp {
  public:
-  explicit Warp(const WarpArgs& args) : a_(args), transform_(colour_transform(args)) {
-    const std::int32_t chroma_width = (args.image_width + 1) / 2;
-    const std::int32_t chroma_height = (args.image_height + 1) / 2;
-    const auto packed = [&](std::int32_t first) {
-      Plane plane = args.plane[0];
+  explicit Warp(const WarpArgs& args) : a_(args) {
+    set_channels();
+    set_colours(colour_transform(args));
+    for (std::int32_t c = 0; c < count_; ++c) {
+      reach_[c] = {channels_[c].across[0], channels_[c].down[0]};
+    }
+  }
+
+  void run() {
+    for (std::int32_t i = 0; i < a_.height; i += kTileRows) {
+      for (std::int32_t j = 0; j < a_.width; j += kTileColumns) {
+        warp_tile({i, std::min(i + kTileRows, a_.height), j, std::min(j + kTileColumns, a_.width)});
+      }
+    }
+  }
+
+ private:
+  using Vec = typename Simd::Vec;
+
+  void set_channels() {
+    const auto packed = [this](std::int32_t first) {
+      Plane plane = a_.plane[0];
       plane.data += first;
-      return Channel(plane, args.image_width, args.image_height, args.box, 1.0f, args.matrix);
+      return Channel(plane, a_.image_width, a_.image_height, a_.box, 1.0f, a_.matrix);
     };
-    const auto chroma = [&](std::int32_t index) {
-      return Channel(args.plane[index], chroma_width, chroma_height, args.chroma_box, 0.5f,
-                     args.matrix);
+    const auto chroma = [this](std::int32_t index) {
+      return Channel(a_.plane[index], (a_.image_width + 1) / 2, (a_.image_height + 1) / 2,
+                     a_.chroma_box, 0.5f, a_.matrix);
     };
-    switch (args.format) {
+    switch (a_.format) {
       case PixelFormat::kGray8:
         count_ = 1;
         channels_[0] = packed(0);
@@ -99,16 +124,14 @@ class Warp {
     }
   }
 
-  void run() {
-    for (std::int32_t i = 0; i < a_.height; i += kTileRows) {
-      for (std::int32_t j = 0; j < a_.width; j += kTileColumns) {
-        warp_tile({i, std::min(i + kTileRows, a_.height), j, std::min(j + kTileColumns, a_.width)});
+  void set_colours(const ColourTransform& transform) {
+    low_ = Simd::splat(transform.low), high_ = Simd::splat(transform.high);
+    for (std::int32_t c = 0; c < 3; ++c) {
+      for (std::int32_t k = 0; k < 4; ++k) {
+        weights_[c][k] = Simd::splat(transform.weights[c][k]);
       }
     }
   }
-
- private:
-  using Vec = typename Simd::Vec;
 
   // A position in boxes.
   struct Point {
@@ -194,7 +217,8 @@ class Warp {
       return false;
     }
     for (std::int32_t c = 0; c < count_; ++c) {
-      sums_.fill(channels_[c], windows_[c], copies_[c]);
+      const bool shares_bytes = c > (has_chroma() ? 1 : 0) && channels_[c].plane.pixel_bytes > 1;
+      sums_.fill(channels_[c], windows_[c], shares_bytes, copies_[c]);
     }
     return true;
   }
@@ -207,7 +231,8 @@ class Warp {
       const Channel& channel = channels_[c];
       const auto step = std::min<std::int64_t>(channel.plane.pixel_bytes, kMaxStep);
       if (window.columns > kMaxSums || window.rows > kMaxSamples ||
-          window.columns * channel.box * step > kMaxSums || used + window.samples() > kMaxSamples) {
+          window.columns * channel.box * step > kMaxSums ||
+          used + window.samples() + reach_[c].rows_beyond * window.columns > kMaxSamples) {
         return false;
       }
       copies_[c] = a_.samples + used + c * kPadding;
@@ -272,11 +297,12 @@ class Warp {
         const std::int32_t right = std::min(left + kColumns, tile.right);
         find(tile, i, left, right, spots);
         const Spots* at = spots;
+        float* y = a_.y + std::ptrdiff_t{i} * a_.width * 3;
         for (std::int32_t next = left; next < right; next += Simd::kLanes) {
           const std::int32_t j = column(tile, next);
           Vec rgb[3];
           colour(*at++, rgb);
-          store(rgb, a_.y + (std::ptrdiff_t{i} * a_.width + j) * 3, tile.right - j);
+          store(rgb, y + std::ptrdiff_t{3} * j, tile.right - j);
         }
       }
     }
@@ -313,7 +339,7 @@ class Warp {
       return Simd::sub(coordinate, Simd::splat(static_cast<float>(first)));
     };
     spot.neighbours = {from(at.column, window.left), from(at.row, window.top), window.columns,
-                       at.across};
+                       at.across, reach_[c]};
     spot.down = at.down;
   }
 
@@ -354,13 +380,11 @@ class Warp {
     }
   }
 
-  [[nodiscard]] Vec shift(std::int32_t c) const { return Simd::splat(transform_.weights[c][3]); }
+  [[nodiscard]] Vec shift(std::int32_t c) const { return weights_[c][3]; }
   [[nodiscard]] Vec weighted(std::int32_t c, std::int32_t of, Vec sample, Vec sum) const {
-    return Simd::fma(sum, sample, Simd::splat(transform_.weights[c][of]));
+    return Simd::fma(sum, sample, weights_[c][of]);
   }
-  [[nodiscard]] Vec clamped(Vec value) const {
-    return Simd::min(Simd::max(value, Simd::splat(transform_.low)), Simd::splat(transform_.high));
-  }
+  [[nodiscard]] Vec clamped(Vec value) const { return Simd::min(Simd::max(value, low_), high_); }
 
   // Bilinear samples of kCount channels from `first` on.
   template <int kCount>
@@ -373,10 +397,11 @@ class Warp {
   }
 
   const WarpArgs& a_;
-  const ColourTransform transform_;
+  Vec weights_[3][4], low_, high_;  // of the colour transform
   std::int32_t count_ = 3;
   bool has_own_grid_ = false;  // chroma has another grid than luma
   Channel channels_[3] = {};
+  typename Simd::Neighbours::Reach reach_[3];
   Window windows_[3] = {};
   std::uint16_t* copies_[3] = {};
   BoxSums<Simd> sums_;
