@@ -3,7 +3,7 @@
 # Writes docs/results/peers.md, or performance.md, and their .json. Peers that cannot be installed are reported and skipped.
 # usage: scripts/peers/bench.sh [ROUNDS] [peers|performance]...      default: 7, both documents
 #        scripts/peers/bench.sh [ROUNDS] avx2|avx2+vnni|avx512...    encoders and frames as on CPUs of these classes, on x86-64 Linux:
-#                                                                    CPUID hides newer instruction sets; writes docs/results/cpu_classes.md
+#                                                                    CPUID hides newer instruction sets, where the CPU can trap it; writes docs/results/cpu_classes.md
 # Makes a Release build unless MIEN_PROGRAM names a program to time. MIEN_DATA: folder of the data packs, for MediaPipe's model and for speech.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -86,7 +86,9 @@ for class in "${classes[@]}"; do
     time_in_turns "$work/$class" mien levels mediapipe "${engines[@]}"
     printf '%s\n' "${timed[@]}" >"$work/$class/timed"
   )
-  /usr/bin/python3 scripts/peers/cpu_classes.py "$work/$class" "$rounds" docs/results "$class"
+  if grep -qx mien "$work/$class/timed"; then
+    /usr/bin/python3 scripts/peers/cpu_classes.py "$work/$class" "$rounds" docs/results "$class"
+  fi
 done
 [ ${#documents[@]} -gt 0 ] || exit 0
 time_in_turns "$work" mien levels sound unfused "${engines[@]}" mediapipe voice_mien voice_silero

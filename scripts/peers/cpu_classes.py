@@ -34,13 +34,15 @@ def rows(name, found):
 
 def page(report):
     lines = ["# Speed by class of CPU", "", "For users who know the CPUs of their users.", "",
-             "Every engine runs on one thread of the same machine, on which CPUID hides the instruction sets that a "
-             "class lacks (`tests/apps/mask_cpuid.c`); fastest runs, by `scripts/peers/bench.sh ROUNDS CLASS...`. The "
-             "ratio of a frame is how many times as fast mien is.", ""]
+             "Engines of a class run on one thread of one machine, on which CPUID hides the instruction sets "
+             "that the class lacks (`tests/apps/mask_cpuid.c`); fastest runs, by `scripts/peers/bench.sh ROUNDS "
+             "CLASS...`. The ratio of a frame is how many times as fast mien is.", ""]
     lines += table(["class", "what", "mien", "fastest peer", "ratio", "goal"],
                    [row for name, found in sorted(report.items()) for row in rows(name, found)])
-    lines += [f"{where}." for where in dict.fromkeys(f"{found['rounds']} interleaved rounds on {found['processor']}"
-                                                      for found in report.values())]
+    machines = {}
+    for name, found in sorted(report.items()):
+        machines.setdefault(f"{found['rounds']} interleaved rounds on {found['processor']}", []).append(name)
+    lines += [f"* {', '.join(names)}: {where}." for where, names in machines.items()]
     return "\n".join(lines) + "\n"
 
 

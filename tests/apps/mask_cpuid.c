@@ -1,8 +1,13 @@
 /* For LD_PRELOAD on x86-64 Linux: CPUID reports a CPU of class MIEN_CPU_CLASS to the program, so
- * that all engines can be compared as they run on CPUs with fewer instruction sets: avx2       no
- * AVX-512, AMX or AVX-VNNI avx2+vnni  no AVX-512 or AMX avx512     no AMX The kernel traps CPUID
- * (arch_prctl(2), ARCH_CPUID) where the CPU supports it; elsewhere the program ends with exit
- * status 69. Bits: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, CPUID.
+ * that all engines can be compared as they run on CPUs with fewer instruction sets:
+ *
+ *   avx2       without AVX-512, AMX and AVX-VNNI
+ *   avx2+vnni  without AVX-512 and AMX
+ *   avx512     without AMX
+ *
+ * The kernel traps CPUID (arch_prctl(2), ARCH_CPUID) where the CPU supports it. Elsewhere the
+ * program ends with exit status 69, unless the CPU itself is of that class. Bits: Intel 64 and
+ * IA-32 Architectures Software Developer's Manual, volume 2, CPUID.
  */
 #define _GNU_SOURCE
 #include <signal.h>
@@ -46,9 +51,7 @@ static void hide(const struct registers what[2]) {
 
 static struct registers cpuid(uint32_t leaf, uint32_t subleaf) {
   struct registers r = {leaf, 0, subleaf, 0};
-  syscall(SYS_arch_prctl, kArchCpuid, 1);
   __asm__ volatile("cpuid" : "+a"(r.eax), "=b"(r.ebx), "+c"(r.ecx), "=d"(r.edx));
-  syscall(SYS_arch_prctl, kArchCpuid, 0);
   return r;
 }
 
@@ -67,6 +70,8 @@ static struct registers masked_cpuid(uint32_t leaf, uint32_t subleaf) {
   return r;
 }
 
+static long trap_cpuid(int on) { return syscall(SYS_arch_prctl, kArchCpuid, !on); }
+
 static void on_trap(int signal_number, siginfo_t* info, void* context) {
   (void)info;
   greg_t* const registers = ((ucontext_t*)context)->uc_mcontext.gregs;
@@ -75,8 +80,10 @@ static void on_trap(int signal_number, siginfo_t* info, void* context) {
     signal(signal_number, SIG_DFL);
     return;
   }
+  trap_cpuid(0);
   const struct registers r =
       masked_cpuid((uint32_t)registers[REG_RAX], (uint32_t)registers[REG_RCX]);
+  trap_cpuid(1);
   registers[REG_RAX] = r.eax;
   registers[REG_RBX] = r.ebx;
   registers[REG_RCX] = r.ecx;
@@ -89,21 +96,51 @@ static void fail(const char* what) {
   _exit(kUnavailable);
 }
 
-__attribute__((constructor)) static void start(void) {
-  const char* const class = getenv("MIEN_CPU_CLASS");
+/* Whether the CPU has none of the instruction sets to hide, so that nothing needs a trap. */
+static int hides_nothing(void) {
+  for (uint32_t i = 0; i < 2; ++i) {
+    const struct registers all = cpuid(7, i), kept = masked_cpuid(7, i);
+    if (memcmp(&all, &kept, sizeof all) != 0) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* Sets `hidden`. */
+static void choose(const char* class) {
   hide(kAmx);
-  if (class != NULL && strcmp(class, "avx2") == 0) {
+  if (strcmp(class, "avx2") == 0) {
     hide(kAvx512);
     hide(kAvxVnni);
-  } else if (class != NULL && strcmp(class, "avx2+vnni") == 0) {
+  } else if (strcmp(class, "avx2+vnni") == 0) {
     hide(kAvx512);
-  } else if (class == NULL || strcmp(class, "avx512") != 0) {
+  } else if (strcmp(class, "avx512") != 0) {
     fail("MIEN_CPU_CLASS: expected avx2, avx2+vnni or avx512");
+  }
+}
+
+/* A CPU below a class would give it the times of another. */
+static int lacks_the_class(const char* class) {
+  if (strcmp(class, "avx512") == 0) {
+    return (cpuid(7, 0).ebx & BIT(16)) == 0;
+  }
+  return strcmp(class, "avx2+vnni") == 0 && (cpuid(7, 1).eax & BIT(4)) == 0;
+}
+
+__attribute__((constructor)) static void start(void) {
+  const char* const class = getenv("MIEN_CPU_CLASS");
+  choose(class == NULL ? "" : class);
+  if (lacks_the_class(class)) {
+    fail("this CPU lacks the instruction sets of MIEN_CPU_CLASS");
+  }
+  if (hides_nothing()) {
+    return;
   }
   struct sigaction action = {.sa_flags = SA_SIGINFO | SA_NODEFER};
   action.sa_sigaction = on_trap;
   sigaction(SIGSEGV, &action, NULL);
-  if (syscall(SYS_arch_prctl, kArchCpuid, 0) != 0) {
+  if (trap_cpuid(1) != 0) {
     fail("this CPU or kernel cannot trap CPUID");
   }
 }
