@@ -45,6 +45,7 @@ class Wild(unittest.TestCase):
         made = evaluate_wild.Answers.__new__(evaluate_wild.Answers)
         made.theirs = generator.random((people, len(CONTROLS)))
         made.controls, made.error = made.theirs.copy(), np.full(people, 0.05)
+        made.trust, made.control_trust = np.ones(people), np.ones((people, len(CONTROLS)))
         made.followed = np.array([INDEX["jawOpen"], INDEX["mouthPucker"]])
         made.controls[:, INDEX["cheekPuff"]] = np.nan  # not driven
         return made
@@ -56,6 +57,14 @@ class Wild(unittest.TestCase):
         found = answers.by(group)
         self.assertEqual(found["A"], {"pictures": 20, "found": 0.75, "error": 0.05, "correlation": 1.0})
         self.assertEqual(found["B"], {"pictures": 20, "found": 0.95, "error": 0.05, "correlation": 0.0})
+
+    def test_doubtful_labels_count_less(self):
+        answers = self.decode()
+        answers.error[:20], answers.trust[:20] = 0.1, 0.25
+        self.assertEqual(0.06, answers.summary(np.ones(40, bool))["error"])
+        answers.controls[:20, INDEX["jawOpen"]] *= -1
+        answers.control_trust[:20] = 0
+        self.assertEqual(1.0, answers.summary(np.ones(40, bool))["correlation"])
 
     def test_nobody_found_has_no_error(self):
         answers = self.decode()

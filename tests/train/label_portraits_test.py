@@ -1,5 +1,9 @@
 """Labels of several views of a portrait: the views are undone, sides stay apart, and scatter is measured."""
+import os
+import tempfile
 import unittest
+import unittest.mock
+from pathlib import Path
 
 import numpy as np
 
@@ -72,6 +76,15 @@ class Views(unittest.TestCase):
         self.assertEqual(4, len(found))
 
 
+def write(path, names, where):
+    """Labels of images of 200 x 200 pixels, with all landmarks at one place, a share of the sides."""
+    path.parent.mkdir(parents=True)
+    count = len(names)
+    np.savez(path, name=names, size_wh=np.full((count, 2), 200), landmarks=np.full((count, 175, 2), where),
+             blendshapes=np.zeros((count, 52)), blendshape_names=CONTROLS,
+             matrix_colmajor=np.tile(np.eye(4).ravel(), (count, 1)))
+
+
 class Trust(unittest.TestCase):
     def test_scatter_lowers_it(self):
         controls = np.random.default_rng(1).uniform(0, 1, (500, len(CONTROLS))).astype(np.float32)
@@ -83,6 +96,26 @@ class Trust(unittest.TestCase):
         self.assertEqual(1, landmarks[1])
         np.testing.assert_allclose(of_controls[0], 0.5, atol=0.05)
         np.testing.assert_allclose(of_controls[1], 1, atol=1e-5)
+
+
+class Averages(unittest.TestCase):
+    def test_they_replace_the_labels_of_a_pack(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(
+                os.environ, MIEN_DATA=folder + "/packs", MIEN_CACHE=folder + "/cache"):
+            write(Path(folder) / "packs/faces/labels.npz", ["a.jpg", "b.jpg"], 0.25)
+            write(Path(folder) / "cache/faces/labels.npz", ["b.jpg"], 0.5)
+            labels = portrait_labels.of_pack("faces")
+        self.assertEqual(["a.jpg", "b.jpg"], labels.name.tolist())
+        self.assertEqual([50, 100], labels.points[:, 0, 0].tolist())
+
+    def test_only_the_chosen_splits_are_asked(self):
+        table = {"name": np.array([f"{i}.jpg" for i in range(300)]), "group": np.full(300, "Black"),
+                 "kind": np.array(["turned", "other"] * 150)}
+        chosen = label_portraits.names_of(table, ["turned"], ["test"])
+        self.assertTrue(chosen)
+        for name in chosen:
+            self.assertEqual("test", portrait_labels.split_of(name))
+            self.assertEqual(0, int(name.partition(".")[0]) % 2)
 
 
 if __name__ == "__main__":

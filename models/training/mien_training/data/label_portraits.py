@@ -1,11 +1,11 @@
 """Labels portraits with the teacher, six times each: the mean is the label, and the scatter lowers its weight.
 
-usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...]
-Needs PyPI's mediapipe and $MIEN_CACHE/PACK/img, the images that $MIEN_DATA/PACK/faces.npz names. Writes
-$MIEN_CACHE/PACK/labels.npz, with the fields of the packs' own labels, and landmark_scatter [n], the mean distance of
-the views' landmarks from their mean as a share of the distance between the pupils, control_scatter [n,52], and views
-[n], of six, in which the teacher found a face. Keeps what an earlier run labelled; a face needs at least three views
-that agree.
+usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...] [--splits SPLIT...]
+Needs PyPI's mediapipe, and for a pack of names only, $MIEN_DATA/PACK/faces.npz, the images in $MIEN_CACHE/PACK/img.
+Writes $MIEN_CACHE/PACK/labels.npz, which replaces the pack's own labels, with the same fields, and landmark_scatter
+[n], the mean distance of the views' landmarks from their mean as a share of the distance between the pupils,
+control_scatter [n,52], and views [n], of six, in which the teacher found a face. Keeps what an earlier run
+labelled; a face needs at least three views that agree.
 """
 import argparse
 import time
@@ -18,6 +18,7 @@ from tqdm import tqdm
 
 from mien_convert.atomic_files import whole
 from mien_training.data import landmark_points as lp
+from mien_training.data import portrait_labels
 from mien_training.data.expressions import CONTROLS, MIRROR
 from mien_training.data.image_border import continued
 from mien_training.paths import cache, data
@@ -110,6 +111,21 @@ def save(path, rows, table):
         np.savez(file, name=np.array(names), blendshape_names=np.array(CONTROLS), **kept, **columns)
 
 
+def portraits_of(pack):
+    """The table of a pack's names, with its own labels where it has some."""
+    named = data() / pack / "faces.npz"
+    return np.load(named if named.exists() else data() / pack / "labels.npz")
+
+
+def names_of(table, kinds, splits):
+    """The portraits of some splits, kind by kind where the pack has kinds."""
+    names = table["name"].astype(str)
+    if "kind" in table:
+        names = np.concatenate([names[table["kind"] == kind] for kind in kinds])
+    group = dict(zip(table["name"].astype(str), portrait_labels.groups(table)))
+    return [str(name) for name in names if portrait_labels.split_of(name, group[name]) in splits]
+
+
 def load(path):
     if not path.exists():
         return {}
@@ -123,17 +139,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pack")
     parser.add_argument("--kinds", nargs="*", default=["turned", "expressive", "other"])
+    parser.add_argument("--splits", nargs="*", default=["train", "val", "test"])
     options = parser.parse_args()
-    folder = cache() / options.pack
-    table = np.load(data() / options.pack / "faces.npz")
+    folder, images = cache() / options.pack, portrait_labels.folder(options.pack) / "img"
+    table = portraits_of(options.pack)
     rows = load(folder / "labels.npz")
-    asked = [str(n) for kind in options.kinds for n in table["name"][table["kind"] == kind] if str(n) not in rows]
+    asked = [name for name in names_of(table, options.kinds, options.splits) if name not in rows]
+    folder.mkdir(parents=True, exist_ok=True)
     ask, saved = teacher(), time.time()
     for name in tqdm(asked, mininterval=10):
         if time.time() - saved > 120:
             save(folder / "labels.npz", rows, table)
             saved = time.time()
-        picture = cv2.imread(str(folder / "img" / name))[..., ::-1]
+        picture = cv2.imread(str(images / name))[..., ::-1]
         found = answers(ask, picture, np.random.default_rng(zlib.crc32(name.encode())))
         if len(found) < MIN_VIEWS:
             continue

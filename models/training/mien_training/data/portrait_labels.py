@@ -1,6 +1,7 @@
 """Portraits of the packs `faces`, `faces_wild` and `faces_more`: the teacher's labels, and splits.
 
-`faces_more` names images of a public data set; $MIEN_CACHE/faces_more has them and their labels (label_portraits.py).
+`faces_more` names images of a public data set; $MIEN_CACHE/faces_more has them and their labels. Labels of
+label_portraits.py, which are averages, replace those of the packs.
 
 A hash of the name holds out 12 % for test and 5 % for validation; of GRID, whose frames show few people, by speaker.
 People who are held out under another name are not used for training (portrait_duplicates.py).
@@ -47,9 +48,13 @@ class Labels:
     def path(self, i):
         return folder(str(self.pack[i])) / "img" / str(self.name[i])
 
+    def yaw(self):
+        """f32 [n] radians, without a sign."""
+        return np.abs(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2]))
+
     def near_profile(self):
         """bool [n]: heads turned so far that half of the labels are guesses."""
-        return np.abs(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2])) > NEAR_PROFILE
+        return self.yaw() > NEAR_PROFILE
 
 
 def split_of(name, group=""):
@@ -84,8 +89,8 @@ def trust(table, controls):
             (variance / (variance + table["control_scatter"] ** 2)).astype(np.float32))
 
 
-def read(pack):
-    table = np.load(folder(pack) / "labels.npz")
+def read(path, pack):
+    table = np.load(path)
     size = table["size_wh"].astype(np.float32)
     matrix = table["matrix_colmajor"].reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float32)
     unknown = np.full(len(size), "")
@@ -102,10 +107,21 @@ def none():
                   numbers(3), numbers(), numbers(len(CONTROLS)))
 
 
+def joined(parts):
+    return Labels(*(np.concatenate([getattr(p, field) for p in parts]) for field in Labels.__dataclass_fields__))
+
+
+def of_pack(pack):
+    """The labels of a pack: averages first, and the pack's own for portraits without."""
+    found = joined([none()] + [read(folder / pack / "labels.npz", pack) for folder in (data(), cache())
+                               if (folder / pack / "labels.npz").exists()])
+    last = {name: row for row, name in enumerate(found.name)}  # in the order of the pack
+    return found.of(np.array(list(last.values()), int))
+
+
 @functools.lru_cache
 def every():
-    parts = [none()] + [read(pack) for pack in PACKS if (folder(pack) / "labels.npz").exists()]
-    return Labels(*(np.concatenate([getattr(p, field) for p in parts]) for field in Labels.__dataclass_fields__))
+    return joined([none()] + [of_pack(pack) for pack in PACKS])
 
 
 def of_split(split, packs=PACKS):

@@ -22,6 +22,7 @@ from mien_training.renderer.assets import names
 FRAMES = 12     # an image is shown for
 PLACES = 400
 YAWS = (0, 15, 30, 45, 90)
+LABELS = """averages over six views of a portrait, weighted by how well the views agree (`label_portraits.py`)"""
 TONE_YAW = 30   # degrees up to which faces count for skin tone: the pose must not speak for the skin
 
 
@@ -67,6 +68,7 @@ class Portraits:
         if not len(self.set):
             raise Missing("the portraits are absent: MIEN_DATA must name the folder of the data packs")
         self.controls = self.set.labels.controls.astype(np.float64)
+        self.weight = self.set.labels.control_trust.astype(np.float64)
         self.rotation = self.set.labels.rotation.astype(np.float64)
         self.controls[:, CONTROLS.index("tongueOut")] = np.nan  # the teacher does not know of it
         self.yaw = np.degrees(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2]))
@@ -93,14 +95,15 @@ def by_group(error, groups):
     return table
 
 
-def grouped(answers, yaw, tones):
-    """Detection, landmark error, and both by yaw and by skin tone."""
+def grouped(answers, yaw, tones, trust):
+    """Detection, landmark error, and both by yaw and by skin tone; trust [n] in the labels weighs the mean error."""
     error = np.array(answers.error)
+    known = np.isfinite(error)
     yaws = {f"{a}-{b}": (np.abs(yaw) >= a) & (np.abs(yaw) < b) for a, b in zip(YAWS, YAWS[1:])}
     tone = np.array([skin_tone.group(t) for t in tones])
     ahead = np.abs(yaw) < TONE_YAW
     return {"pictures": len(error), "found": float(np.mean(answers.found)),
-            "landmark_error_outer_eyes": float(np.nanmean(error)),
+            "landmark_error_outer_eyes": float(np.average(error[known], weights=trust[known])),
             "landmark_error_p95": float(np.nanpercentile(error, 95)), "by_yaw": by_group(error, yaws),
             "by_tone": by_group(error, {g: ahead & (tone == g) for g in (*skin_tone.GROUPS, skin_tone.NO_TONE)})}
 
@@ -111,7 +114,7 @@ def against_teacher(answers, portraits):
     ours = np.array(answers.controls)[known]
     turn = teacher.pose_difference(np.array(answers.rotation)[known], portraits.rotation[known])
     return {"pose_difference_deg": float(turn.mean()),
-            "controls": teacher.compare_controls(ours, portraits.controls[known])}
+            "controls": teacher.compare_controls(ours, portraits.controls[known], portraits.weight[known])}
 
 
 def empty_places(count, seed):
@@ -135,8 +138,9 @@ def measure(setting):
     report = {"places": PLACES, "false_faces": int(sum(claimed)), "levels": {}}
     for name in levels:
         report["levels"][name] = {
-            "portraits": {**grouped(found[name], portraits.yaw, tones), **against_teacher(found[name], portraits)},
-            "rendered": grouped(drawn[name], labels["angles"][:, 0], drawn_tones)}
+            "portraits": {**grouped(found[name], portraits.yaw, tones, portraits.set.labels.trust),
+                          **against_teacher(found[name], portraits)},
+            "rendered": grouped(drawn[name], labels["angles"][:, 0], drawn_tones, np.ones(len(drawn_tones)))}
     return report
 
 
@@ -164,7 +168,7 @@ def markdown(report):
         the first frame: {share("portraits")} of portraits, {share("rendered")} of rendered people. Landmark error
         relative to the distance between the outer eye corners: {error("portraits")}, on rendered people
         {error("rendered")}. mien reports a face in {report['false_faces']} of {report['places']} images without one.
-        The data are held-out portraits with labels of MediaPipe and rendered test people.
+        The data are held-out portraits with labels of MediaPipe, {LABELS}, and rendered test people.
         [By skin tone](../../models/README.md#by-group-of-people).""")
     lines += out.prose(f"Cells with two figures are for {' and '.join(map(out.level, levels))}; *lost*: not detected.")
     return "\n".join(lines + group_lines(levels))

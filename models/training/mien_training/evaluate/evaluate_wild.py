@@ -11,11 +11,13 @@ from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS
 from mien_training.evaluate import metrics, teacher
 from mien_training.evaluate import report as out
-from mien_training.evaluate.evaluate_images import show
+from mien_training.evaluate.evaluate_images import LABELS, show
 from mien_training.evaluate.inputs import Missing
 
 CANVAS = (480, 640)     # height, width
 RIGHT = 0.15            # of the pupils' distance
+TURNED = 50             # degrees of yaw from which goals are lower
+POSES = f"yaw up to {TURNED} degrees", f"yaw beyond {TURNED} degrees"
 FEWEST = 20             # images of a group worth a line
 ETHNIC = ("Black", "East Asian", "Indian", "Latino Hispanic", "Middle Eastern", "Southeast Asian", "White")
 
@@ -44,20 +46,25 @@ class Answers:
         self.error = np.array(errors)
         self.controls = np.array(controls, np.float64)          # [n,52]; NaN where none is driven
         self.theirs = portraits.labels.controls.astype(np.float64)
+        self.trust = portraits.labels.trust                     # [n], weights of errors
+        self.control_trust = portraits.labels.control_trust     # [n,52], of correlations
         driven = np.isfinite(self.controls[np.isfinite(self.error)]).all(0)
         self.followed = np.flatnonzero(driven & (self.theirs.std(0) >= teacher.MOVES))
 
     def summary(self, chosen):
         """Figures of the portraits `chosen` [n]; all but the first two count correct detections only."""
         right = chosen & (self.error < RIGHT)
-        mean = lambda values: out.rounded(metrics.known_mean(values)) if right.any() else None
-        correlation = metrics.correlations(self.controls[right][:, self.followed], self.theirs[right][:, self.followed])
-        return {"pictures": int(chosen.sum()), "found": out.rounded(right[chosen].mean()),
-                "error": mean(self.error[right]), "correlation": mean(correlation)}
+        figures = {"pictures": int(chosen.sum()), "found": out.rounded(right[chosen].mean())}
+        if not right.any():
+            return {**figures, "error": None, "correlation": None}
+        error = np.average(self.error[right], weights=self.trust[right])
+        correlation = metrics.correlations(*(values[right][:, self.followed] for values in
+                                             (self.controls, self.theirs, self.control_trust)))
+        return {**figures, "error": out.rounded(error), "correlation": out.rounded(metrics.known_mean(correlation))}
 
-    def by(self, values, names=None):
+    def by(self, values, names=None, fewest=FEWEST):
         chosen = {name: np.asarray(values) == name for name in (names or sorted(set(values) - {""}))}
-        return {name: self.summary(rows) for name, rows in chosen.items() if rows.sum() >= FEWEST}
+        return {name: self.summary(rows) for name, rows in chosen.items() if rows.sum() >= fewest}
 
 
 def measure(setting):
@@ -66,7 +73,7 @@ def measure(setting):
         raise Missing("the portraits in the wild are absent: MIEN_DATA must name the folder of the data packs")
     report = {"levels": {}}
     labels = portraits.labels
-    turned = np.where(labels.near_profile(), "turned by more than 38 degrees", "ahead")
+    turned = np.array(POSES)[(labels.yaw() > np.radians(TURNED)).astype(int)]
     for name, lod in setting.levels("wild").items():
         answers = Answers(setting.program, lod, portraits)
         groups, whole = answers.by(labels.group, ETHNIC), answers.summary(np.ones(len(portraits), bool))
@@ -76,7 +83,7 @@ def measure(setting):
                                   "worst_group_ratio_among_groups": known and out.rounded(worst / known),
                                   "by_group": groups,
                                   "by_sex": answers.by(labels.sex), "by_age": answers.by(labels.age),
-                                  "by_pose": answers.by(turned),
+                                  "by_pose": answers.by(turned, POSES, 1),
                                   "by_pack": answers.by([str(n).partition("_")[0] for n in labels.name])}
     return report
 
@@ -93,7 +100,7 @@ def markdown(report):
         f"""The data are held-out portraits, photographs and generated faces, each pasted into a plain
         image of {CANVAS[1]} x {CANVAS[0]} pixels. A correct detection has a mean landmark error below
         {100 * RIGHT:.0f} % of the distance between the pupils; the other figures cover those. Controls: mean
-        correlation with MediaPipe.""")
+        correlation with MediaPipe. Labels are {LABELS}.""")
     cells = lambda s: [f"{100 * s['found']:.1f} %", out.number(s["error"] and 100 * s["error"], 2),
                        out.number(s["correlation"], 2)]
     groups = [("all", first["pictures"], list(levels.values()))]

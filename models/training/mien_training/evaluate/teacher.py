@@ -15,16 +15,17 @@ def pose_difference(ours, theirs):
     return np.degrees((between.mean().inv() * between).magnitude())
 
 
-def compare_controls(ours, theirs):
+def compare_controls(ours, theirs, weight=None):
     """{control: correlation, error after the best linear map, error of the teacher's mean, the teacher's spread}, of
-    [n,52] each.
+    [n,52] each; weight [n,52], of correlations.
 
     All controls of the teacher; those that mien does not drive have no correlation.
     """
     known = np.flatnonzero(np.isfinite(theirs).all(0))
     ours, theirs = ours[:, known], theirs[:, known]
     driven = np.isfinite(ours).all(0)
-    correlation = np.where(driven, metrics.correlations(np.nan_to_num(ours), theirs), np.nan)
+    weight = None if weight is None else weight[:, known]
+    correlation = np.where(driven, metrics.correlations(np.nan_to_num(ours), theirs, weight), np.nan)
     error, constant = metrics.linear_map_error(np.nan_to_num(ours), theirs)
     rows = zip(correlation, np.where(driven, error, np.nan), constant, theirs.std(0))
     names = ("correlation", "error", "constant_error", "spread")
