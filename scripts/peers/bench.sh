@@ -17,7 +17,7 @@ for word in "${@:2}"; do
   esac
 done
 [ ${#documents[@]} -gt 0 ] || [ ${#classes[@]} -gt 0 ] || documents=(peers performance)
-export PYTHONPATH=$PWD/models/training:$PWD/apps/convert:$PWD/bindings/python/src
+export PYTHONPATH=$PWD/models/training:$PWD/apps/convert:$PWD/bindings/python/src:$PWD/scripts/peers
 export MIEN_DATA=${MIEN_DATA:-$PWD/../shared/data}
 work=${MIEN_CACHE:-$HOME/.cache/mien}/peers
 python=$work/venv/bin/python
@@ -48,11 +48,14 @@ run() {
 convert() {
   rm -f "$work"/*_encoder.* "$work"/*_decoder.*
   /usr/bin/python3 -W ignore scripts/peers/export_onnx.py "$work" 2>"$work/export.log"
-  local file pnnx  # the program itself, because its Python launcher needs PyTorch
+  local file engine pnnx  # the program itself, because its Python launcher needs PyTorch
   pnnx=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/pnnx/pnnx
   for file in "$work"/*.onnx; do "$pnnx" "$file" fp16=0 >"$file.log" 2>&1 || echo "NOT MEASURED: $file in ncnn" >&2; done
   for file in basenet_encoder hifinet_encoder; do
     "$python" scripts/peers/onnx_to_tflite.py "$work/$file.onnx" "$work/$file.tflite" || echo "NOT MEASURED: $file in LiteRT" >&2
+  done
+  for engine in onnxruntime openvino litert; do
+    "$python" scripts/peers/quantize.py $engine "$work" >"$work/quantize_$engine.log" 2>&1 || echo "NOT MEASURED: $engine in 8 bits" >&2
   done
 }
 
@@ -75,9 +78,10 @@ time_in_turns() {  # folder, names; sets timed
     for name in "${timed[@]}"; do run "$name" >"$folder/${name}_$round.json" 2>"$work/$name.log"; done
   done
   cp /proc/loadavg "$folder/load"
+  "${first[@]}" "$python" scripts/peers/tier_errors.py "$program" "$work" "$folder/mien_0.json" >"$folder/errors_0.json" || rm "$folder/errors_0.json"
 }
 
-engines=(onnxruntime openvino openvino_bf16 ncnn ncnn_16bit litert)
+engines=(onnxruntime onnxruntime_int8 openvino openvino_bf16 openvino_int8 ncnn ncnn_16bit litert litert_int8)
 cc -O1 -shared -fPIC -o "$work/mask_cpuid.so" tests/apps/mask_cpuid.c
 for class in "${classes[@]}"; do
   echo "== $class"

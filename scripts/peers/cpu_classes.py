@@ -7,7 +7,7 @@ import json
 import sys
 from pathlib import Path
 
-from peers import ENCODER_GOALS, ENGINES, Runs, fastest, frames, networks, processor, table
+from peers import ENCODER_GOALS, ENGINES, ERROR, Runs, fastest, frames, networks, processor, shown, table
 
 # of the fastest peer's time at any precision: BaseNet's and HiFiNet's encoder; level 4 beside MediaPipe
 GOALS = {"avx2": (0.6, 0.6, 15), "avx2+vnni": (0.45, 0.45, 20), "avx512": (0.4, 0.5, 25)}
@@ -24,11 +24,12 @@ def rows(name, found):
     for row in found["networks"]:
         tier, peer = fastest(row["mien"]), fastest(row["peers"])
         times = row["mien"][tier]["min_ms"], row["peers"][peer]["min_ms"]
-        yield [name, row["network"], f"{tier}: {times[0]:.3f} ms", f"{ENGINES[peer]}: {times[1]:.3f} ms",
+        yield [name, row["network"], f"{tier}: {shown(row['mien'][tier], 3)}",
+               f"{ENGINES[peer]}: {shown(row['peers'][peer], 3)}",
                f"{times[0] / times[1]:.2f}", f"<= {goals[row['network']]}"]
     if found["frames"]:
         ours, theirs = found["frames"]["mien_us"]["4"], found["frames"]["mediapipe_us"]
-        yield [name, "frame at level 4", f"{ours / 1e3:.3f} ms", f"MediaPipe: {theirs / 1e3:.2f} ms",
+        yield [name, "frame at level 4", f"{ours / 1e3:.3f}", f"MediaPipe: {theirs / 1e3:.2f}",
                f"{theirs / ours:.1f}", f">= {GOALS[name][2]}"]
 
 
@@ -36,12 +37,14 @@ def page(report):
     lines = ["# Speed by class of CPU", "", "For users who know the CPUs of their users.", "",
              "Engines of a class run on one thread of one machine, on which CPUID hides the instruction sets "
              "that the class lacks (`tests/apps/mask_cpuid.c`); fastest runs, by `scripts/peers/bench.sh ROUNDS "
-             "CLASS...`. The ratio of a frame is how many times as fast mien is.", ""]
-    lines += table(["class", "what", "mien", "fastest peer", "ratio", "goal"],
+             f"CLASS...`. The ratio of a frame is how many times as fast mien is. In parentheses: {ERROR}.", ""]
+    lines += table(["class", "what", "mien, ms", "fastest peer, ms", "ratio", "goal"],
                    [row for name, found in sorted(report.items()) for row in rows(name, found)])
     machines = {}
     for name, found in sorted(report.items()):
-        machines.setdefault(f"{found['rounds']} interleaved rounds on {found['processor']}", []).append(name)
+        peers = {peer for row in found["networks"] for peer in row["peers"]}
+        missing = "" if any(peer.endswith("int8") for peer in peers) else ", without peers in 8 bits"
+        machines.setdefault(f"{found['rounds']} interleaved rounds on {found['processor']}{missing}", []).append(name)
     lines += [f"* {', '.join(names)}: {where}." for where, names in machines.items()]
     return "\n".join(lines) + "\n"
 

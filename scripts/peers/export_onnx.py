@@ -2,18 +2,25 @@
 """Writes the networks as ONNX for other engines.
 
 usage: export_onnx.py OUT_DIR
-Writes NAME.onnx, and NAME.npz with the inputs by name, in order, and the first output, `answer`.
-Networks over time run one step, with their state as inputs and outputs.
+Writes NAME.onnx, and NAME.npz with the inputs by name, in order, and the first output, `answer`, of one or several
+samples. Encoders of images have the published weights and see faces, because the accuracy of 8 bits depends on both;
+NAME.npy has more faces, for calibration. Networks over time run one step, with their state as inputs and outputs.
 """
 import sys
 from pathlib import Path
 
 import numpy as np
 import torch
+from demo_crops import crops
 from torch import nn
 
 from mien_training.audio import audio_net
-from mien_training.networks.architectures import BaseNetEncoder, HiFiNetEncoder, folded
+from mien_training.data.framing import FRAMINGS
+from mien_training.networks.architectures import folded
+from mien_training.networks.shipped_checkpoints import network_of
+from mien_training.paths import ROOT
+
+SAMPLES = 4  # faces that are compared
 
 
 class EncoderStep(nn.Module):
@@ -54,24 +61,33 @@ def networks():
     encoder_inputs = {"features": (1, 1, audio_net.FEATURES), **{name: (1, width, 1) for name, width in remembered},
                       **state}
     return {
-        "basenet_encoder": (clamp_once(folded(BaseNetEncoder())), {"image": (1, 3, 65, 65)}),
-        "hifinet_encoder": (clamp_once(folded(HiFiNetEncoder())), {"image": (1, 3, 129, 109)}),
         "audionet_encoder": (EncoderStep(), encoder_inputs),
         "audionet_controls_decoder": (DecoderStep(audio_net.controls_decoder(), nn.Hardtanh(0, 1)), decoder_inputs),
         "audionet_activity_decoder": (DecoderStep(audio_net.activity_decoder(), nn.Softmax(-1)), decoder_inputs),
     }
 
 
+def export(network, inputs, path):
+    first = [x[:1] for x in inputs.values()]
+    torch.onnx.export(network, tuple(first), path, opset_version=13, input_names=list(inputs))
+    with torch.no_grad():
+        answers = network(*inputs.values())
+    answer = answers[0] if isinstance(answers, tuple) else answers
+    np.savez(path.with_suffix(".npz"), **{name: x.numpy() for name, x in inputs.items()}, answer=answer.numpy())
+
+
 def main():
     out = Path(sys.argv[1])
     torch.manual_seed(1)
+    for name, framing in FRAMINGS.items():
+        encoder = clamp_once(folded(network_of(ROOT / f"models/{name}.mien", name).encoder)).eval()
+        faces = crops(framing)
+        compared = torch.linspace(0, len(faces) - 1, SAMPLES).long()
+        export(encoder, {"image": faces[compared]}, out / f"{name}_encoder.onnx")
+        others = torch.ones(len(faces), dtype=torch.bool).index_fill_(0, compared, False)
+        np.save(out / f"{name}_encoder.npy", faces[others].numpy())
     for name, (network, shapes) in networks().items():
-        network, inputs = network.eval(), tuple(torch.rand(shape) * 2 - 1 for shape in shapes.values())
-        torch.onnx.export(network, inputs, out / f"{name}.onnx", opset_version=13, input_names=list(shapes))
-        with torch.no_grad():
-            answers = network(*inputs)
-        first = answers[0] if isinstance(answers, tuple) else answers
-        np.savez(out / f"{name}.npz", **{k: x.numpy() for k, x in zip(shapes, inputs)}, answer=first.numpy())
+        export(network.eval(), {key: torch.rand(shape) * 2 - 1 for key, shape in shapes.items()}, out / f"{name}.onnx")
 
 
 if __name__ == "__main__":

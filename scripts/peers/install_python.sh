@@ -10,6 +10,7 @@ peer() {  # options and packages of pip
 }
 peer numpy==2.4.6 onnxruntime==1.32.0 onnx==1.23.2
 peer openvino==2026.4.1
+peer nncf==3.4.0 ai-edge-quantizer==0.10.0
 peer --no-deps ncnn==1.0.20261020 pnnx==20261020  # neither needs the PyTorch and OpenCV that it names
 peer ai-edge-litert==2.3.0
 peer mediapipe==1.2.2

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes an encoder's ONNX file as a LiteRT one: convolutions, clamps to 0..6, additions, crops.  usage:
-onnx_to_tflite.py IN.onnx OUT.tflite
+"""Writes an encoder's ONNX file as a LiteRT one: convolutions, clamps to 0..6, additions, crops.
+
+usage: onnx_to_tflite.py IN.onnx OUT.tflite
 
 No converter that PyPI has reads ONNX without TensorFlow, and these are seven operators. Maps become channels-last;
 clamps become a part of the convolution, crops one operator, padding that LiteRT cannot name (symmetric, at a stride) an
@@ -93,7 +94,11 @@ class Writer:
         return x
 
     def bytes(self):
+        named = lambda name, tensors: [schema.TensorMapT(name=name, tensorIndex=tensors[0])]
         self.model.subgraphs = [self.graph]
+        self.model.signatureDefs = [schema.SignatureDefT(signatureKey="serving_default", subgraphIndex=0,
+                                                         inputs=named("image", self.graph.inputs),
+                                                         outputs=named("embedding", self.graph.outputs))]
         builder = flatbuffers.Builder(1 << 24)
         builder.Finish(self.model.Pack(builder), file_identifier=b"TFL3")
         return bytes(builder.Output())

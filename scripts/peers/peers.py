@@ -10,10 +10,13 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-ENGINES = {"onnxruntime": "ONNX Runtime", "openvino": "OpenVINO", "openvino_bf16": "OpenVINO, bf16", "ncnn": "ncnn",
-           "ncnn_16bit": "ncnn, 16 bits", "litert": "LiteRT (XNNPACK)"}
+ENGINES = {"onnxruntime": "ONNX Runtime", "onnxruntime_int8": "ONNX Runtime, int8", "openvino": "OpenVINO",
+           "openvino_bf16": "OpenVINO, bf16", "openvino_int8": "OpenVINO, int8", "ncnn": "ncnn",
+           "ncnn_16bit": "ncnn, 16 bits", "litert": "LiteRT (XNNPACK)", "litert_int8": "LiteRT (XNNPACK), int8"}
 OTHERS = {"mediapipe": "MediaPipe", "voice_silero": "Silero VAD"}
-LESS_EXACT = ("openvino_bf16", "ncnn_16bit")
+LESS_EXACT = ("onnxruntime_int8", "openvino_bf16", "openvino_int8", "ncnn_16bit", "litert_int8")
+ERROR = "root mean square error of the output on faces, relative to the output; each tool chose its own 8 bits"
+VISIBLE = 5e-4  # error of outputs from which tables show it
 ENCODER_GOALS = {"basenet_encoder": 0.8, "hifinet_encoder": 0.8}  # of the fastest peer's time, by minima and by medians
 FRAME_GOAL = 20  # times faster than MediaPipe
 MILLION = 1e6
@@ -28,12 +31,19 @@ class Runs:
 
 
 def least(rows):
-    return {"min_ms": min(r["min_ms"] for r in rows), "median_ms": statistics.median(r["median_ms"] for r in rows)}
+    return {"min_ms": min(r["min_ms"] for r in rows), "median_ms": statistics.median(r["median_ms"] for r in rows),
+            "difference": rows[0].get("difference")}
+
+
+def shown(times, digits=4):
+    """The fastest run, and the error of the output where it is visible."""
+    error = times.get("difference") or 0
+    return f"{times['min_ms']:.{digits}f}" + (f" ({100 * error:.1f} %)" if error >= VISIBLE else "")
 
 
 def networks(runs):
     """[{network, mien: {tier: times}, peers: {engine: times}}]"""
-    ours = runs.load("mien")
+    ours, errors = runs.load("mien"), runs.load("errors", 1)[0]
     theirs = {engine: runs.load(engine) for engine in ENGINES if engine in runs.measured}
     report = []
     for name in dict.fromkeys(r["name"] for r in ours[0]["results"]):
@@ -44,6 +54,8 @@ def networks(runs):
         tiers = {r["tier"] for r in ours[0]["results"] if r["name"] == name} - {"ref"}
         mine = {tier: least([r for run in ours for r in run["results"] if (r["name"], r["tier"]) == (name, tier)])
                 for tier in sorted(tiers)}
+        for tier, error in errors.get(name, {}).items():
+            mine[tier]["difference"] = error
         report.append({"network": name, "mien": mine, "peers": peers})
     return report
 
@@ -97,15 +109,15 @@ def met(right):
 
 
 def network_lines(report):
-    shown = [r for r in report if r["network"].endswith("_encoder")]
-    row = lambda name, times: [name, *(f"{t['min_ms']:.4f}" if t else "" for t in times)]
-    tiers = dict.fromkeys(tier for r in shown for tier in r["mien"])
-    rows = [row(f"mien, {tier}", [r["mien"].get(tier) for r in shown]) for tier in tiers]
-    engines = [e for e in ENGINES if any(e in r["peers"] for r in shown)]
-    rows += [row(ENGINES[e], [r["peers"].get(e) for r in shown]) for e in engines]
+    encoders = [r for r in report if r["network"].endswith("_encoder")]
+    row = lambda name, times: [name, *(shown(t) if t else "" for t in times)]
+    tiers = dict.fromkeys(tier for r in encoders for tier in r["mien"])
+    rows = [row(f"mien, {tier}", [r["mien"].get(tier) for r in encoders]) for tier in tiers]
+    engines = [e for e in ENGINES if any(e in r["peers"] for r in encoders)]
+    rows += [row(ENGINES[e], [r["peers"].get(e) for r in encoders]) for e in engines]
     lines = ["## Networks", "",
-             "Fastest run in ms, with checked results; [peers.json](peers.json) has all networks.", "",
-             *table(["", *(r["network"] for r in shown)], rows)]
+             "Fastest run in ms, with checked results; [peers.json](peers.json) has all networks. In parentheses, if "
+             f"visible: {ERROR}.", "", *table(["", *(r["network"] for r in encoders)], rows)]
     lines += [f"* Goal for {name}: at most {ENCODER_GOALS[name]} of the fastest peer, by minima and by medians: "
               f"{met(max(ratios) <= ENCODER_GOALS[name])}." for name, (_, _, ratios) in best_ratios(report).items()]
     return lines + [""]
