@@ -2,6 +2,8 @@
 """Times the networks of export_onnx.py in an engine on one thread, and prints JSON.
 
 usage: engines.py ENGINE DIR
+       engines.py ENGINE DIR check               only compares the outputs
+       engines.py ENGINE DIR NETWORK RUNS        only runs a network, for a program that counts instructions
 It is an error if the engine is not installed or its output differs from PyTorch's. Networks without a file for the
 engine are skipped. Engines with 8 bits run the files of quantize.py.
 """
@@ -126,24 +128,51 @@ def difference(load, file, inputs, answers):
     return float(np.linalg.norm(np.stack(outputs) - answers) / np.linalg.norm(answers))
 
 
-def main():
-    engine, directory = sys.argv[1], Path(sys.argv[2])
-    load, suffix, tolerance, package, files = ENGINES[engine]
-    networks = {}
+def repeat(load, file, inputs, runs):
+    run, _ = load(file, {name: np.ascontiguousarray(x[:1]) for name, x in inputs.items()})
+    for _ in range(runs):
+        run()
+
+
+def networks_in(directory, suffix):
+    """(name, file for the engine, inputs, answers) of each network that has such a file."""
     for samples in sorted(directory.glob("*.npz")):
-        name, file = samples.stem, f"{directory / samples.stem}{suffix}"
-        if not Path(file).exists():
-            continue
-        inputs = dict(np.load(samples))
-        answer = inputs.pop("answer")
-        error = difference(load, file, inputs, answer.reshape(len(answer), -1))
+        file = f"{directory / samples.stem}{suffix}"
+        if Path(file).exists():
+            inputs = dict(np.load(samples))
+            answer = inputs.pop("answer")
+            yield samples.stem, file, inputs, answer.reshape(len(answer), -1)
+
+
+def checked(engine, directory):
+    """(name, file, inputs, error) of each network; ends the program if an output is wrong."""
+    load, suffix, tolerance, *_ = ENGINES[engine]
+    for name, file, inputs, answers in networks_in(directory, suffix):
+        error = difference(load, file, inputs, answers)
         if not error <= tolerance:
             sys.exit(f"engines.py: {engine}: {name}: wrong output (differs by {error:.2g} of its size)")
+        yield name, file, inputs, error
+
+
+def measure(engine, directory):
+    load, _, _, package, files = ENGINES[engine]
+    networks = {}
+    for name, file, inputs, error in checked(engine, directory):
         run, _ = load(file, {key: np.ascontiguousarray(x[:1]) for key, x in inputs.items()})
         times = timed(run)
         networks[name] = {"min_ms": times[0], "median_ms": times[RUNS // 2], "difference": error}
-    print(json.dumps({"version": distribution(package).version, "bytes": shipped_bytes(package, files),
-                      "networks": networks}))
+    return {"version": distribution(package).version, "bytes": shipped_bytes(package, files), "networks": networks}
+
+
+def main():
+    engine, directory, *only = sys.argv[1], Path(sys.argv[2]), *sys.argv[3:]
+    if only == ["check"]:
+        list(checked(engine, directory))
+    elif only:
+        found = {name: (file, inputs) for name, file, inputs, _ in networks_in(directory, ENGINES[engine][1])}
+        repeat(ENGINES[engine][0], *found[only[0]], int(only[1]))
+    else:
+        print(json.dumps(measure(engine, directory)))
 
 
 if __name__ == "__main__":

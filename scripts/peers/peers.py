@@ -15,7 +15,7 @@ ENGINES = {"onnxruntime": "ONNX Runtime", "onnxruntime_int8": "ONNX Runtime, int
            "ncnn_16bit": "ncnn, 16 bits", "litert": "LiteRT (XNNPACK)", "litert_int8": "LiteRT (XNNPACK), int8"}
 OTHERS = {"mediapipe": "MediaPipe", "voice_silero": "Silero VAD"}
 LESS_EXACT = ("onnxruntime_int8", "openvino_bf16", "openvino_int8", "ncnn_16bit", "litert_int8")
-ERROR = "root mean square error of the output on faces, relative to the output; each tool chose its own 8 bits"
+ERROR = "relative error of the output on faces"
 VISIBLE = 5e-4  # error of outputs from which tables show it
 ENCODER_GOALS = {"basenet_encoder": 0.8, "hifinet_encoder": 0.8}  # of the fastest peer's time, by minima and by medians
 FRAME_GOAL = 20  # times faster than MediaPipe

@@ -22,7 +22,7 @@ from mien_training.renderer.assets import names
 FRAMES = 12     # an image is shown for
 PLACES = 400
 YAWS = (0, 15, 30, 45, 90)
-LABELS = """averages over six views of a portrait, weighted by how well the views agree (`label_portraits.py`)"""
+LABELS = "averaged over six views and weighted by their agreement"
 TONE_YAW = 30   # degrees up to which faces count for skin tone: the pose must not speak for the skin
 
 
