@@ -38,7 +38,7 @@ before(async () => {
     const {canvas: offscreen} = draw(new OffscreenCanvas(640, 480)), planes = await (await fetch('face.i420')).arrayBuffer();
     window.sources = {
       pixels, canvas, offscreen, image, bitmap: await createImageBitmap(image), drawn: new VideoFrame(canvas, {timestamp: 5000}),
-      captured: new VideoFrame(planes, {format: 'I420', codedWidth: 640, codedHeight: 480, timestamp: 7000}),
+      captured: new VideoFrame(planes, {format: 'I420', codedWidth: 640, codedHeight: 480, timestamp: 7000, colorSpace: {matrix: 'smpte170m', fullRange: false}}),
       raw: {format: 'i420', width: 640, height: 480, data: new Uint8Array(planes)}};
     window.trackers = {here: await window.mien.createTracker({lod: 1}), worker: await window.mien.createTrackerWorker({lod: 1})};
   });
