@@ -46,7 +46,7 @@ export class Numbers {
     put('Parts', times.filter(([, value]) => value >= 0.05).map(([name, value]) => `${name} ${value.toFixed(1)}`).join(', ') + ' ms');
     put('Frame rate', `${rate.toFixed(0)} per second`);
     put('Dropped frames', String(dropped));
-    put('Head', ['pitch', 'yaw', 'roll'].map(name => `${name} ${Math.round(result[name] * 180 / Math.PI)}°`).join(', '));
+    put('Head', ['pitch', 'yaw', 'roll'].map(name => `${name}\u00a0${Math.round(result[name] * 180 / Math.PI)}°`).join(', '));
   }
 
   showBars({controls, supportedControls}) {
