@@ -28,6 +28,10 @@ void add_options(CLI::App& program, Options& options) {
   program.add_flag("--bench", options.bench,
                    "measures the kernels that pass, relative to the measured peak");
   program
+      .add_flag("--block", options.block,
+                "with --bench, instead of the table: a block of text about this device")
+      ->needs("--bench");
+  program
       .add_option("--json", options.json,
                   "results as JSON; - writes them to standard output, without table")
       ->type_name("FILE");

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/conformance/benchmark.h"
+#include "apps/conformance/device_block.h"
 #include "apps/conformance/glob.h"
 #include "apps/conformance/kernel_suite.h"
 #include "apps/conformance/network_suite.h"
@@ -94,7 +95,7 @@ void list(const Selection& selection) {
 class Run {
  public:
   explicit Run(const Options& options)
-      : options_(options), quiet_(options.json == "-"), begin_(Clock::now()) {
+      : options_(options), quiet_(options.json == "-" || options.block), begin_(Clock::now()) {
     report_.seed = options.seed;
     report_.repeat = options.repeat;
   }
@@ -203,6 +204,9 @@ ExitCode run(const Options& options) {
   const Report report = Run(options).run(selection);
   if (!options.json.empty() && !write(options.json, as_json(report))) {
     return fail(kExitOutput, options.json + ": cannot be written");
+  }
+  if (options.block) {
+    std::printf("%s", device_block(report).c_str());
   }
   return report.failures() == 0 ? kExitOk : kExitFailures;
 }

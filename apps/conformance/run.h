@@ -9,7 +9,7 @@
 namespace mien::conformance {
 
 struct Options {
-  bool list = false, bench = false, self_test = false;
+  bool list = false, bench = false, block = false, self_test = false;
   std::string filter = "*";
   std::string tier;  // empty: all
   std::uint64_t seed = 1;

@@ -24,6 +24,16 @@ TEST_F(ConformanceProgram, ChecksMatchingKernels) {
   EXPECT_THAT(outcome.output, Not(HasSubstr("\033["))) << "colours in a file";
 }
 
+TEST_F(ConformanceProgram, DescribesTheDeviceForOthers) {
+  const Outcome outcome = run("--bench --block --tier ref --filter 'ma*'");
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("| processors |"));
+  EXPECT_THAT(outcome.output, HasSubstr("| networks of level 1 | not measured: basenet_encoder |"));
+  EXPECT_THAT(outcome.output, HasSubstr("| 2 checked, 0 failed; ref |"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("GFLOP/s")));
+  EXPECT_EQ(run("--block").code, 2);
+}
+
 TEST_F(ConformanceProgram, ListsEveryKernelOfThisCpu) {
   const Outcome outcome = run("--list");
   EXPECT_EQ(outcome.code, 0);
