@@ -2,9 +2,6 @@
 // tiles of up to 6 pixels x 16 output channels. Each lane multiplies 4 bytes at once: two elements
 // of the sum of 16 bits, or four of 8. A last panel of 8 multiplies 8 bytes, 4 in the even lanes
 // and 4 in the odd.
-//
-// A tile only leaves integer sums; one loop converts the sums of all tiles, because that needs less
-// code than converting them in each.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +16,7 @@ namespace mien::kernels::avx2 {
 namespace {
 
 inline constexpr int kVecs = kPanel / kLanes;
-inline constexpr int kMaxPixels = 6;
 inline constexpr int kStepElems = 2 * kPanel;  // weights of 16 bits of one step
-
-// Aligned, because stores that cross cache lines are slow.
-struct alignas(64) Sums {
-  std::int32_t of[kMaxPixels][kPanel];
-};
 
 // Broadcasts 4 bytes to every lane, or 8 bytes to every two lanes.
 template <int kCount>
@@ -39,10 +30,6 @@ __m256i broadcast_pairs(const std::int16_t* x) {
     __builtin_memcpy(&pairs, x, sizeof pairs);
     return _mm256_set1_epi64x(pairs);
   }
-}
-
-inline __m256i load_sums(const std::int32_t* at) {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
 }
 
 // Converts the sums of one block of 8 outputs to results.
@@ -72,88 +59,86 @@ class QuantizedTiles {
   static void multiply(const QuantizedProduct& a) {
     const std::int32_t panels = a.to.out_blocks / 2;
     for (std::int32_t panel = 0; panel < panels; ++panel) {
-      QuantizedTiles(a, panel).template sweep<1>();
+      QuantizedTiles(a, panel, 2).template sweep<1>();
     }
     if (a.to.out_blocks % 2 != 0) {
-      QuantizedTiles(a, panels).template sweep<2>();
+      QuantizedTiles(a, panels, 1).template sweep<2>();
     }
   }
 
  private:
-  using Run = void (*)(const QuantizedProduct&, const std::int16_t* x, const std::int16_t* w,
-                       Sums&);
+  using Run = void (*)(const QuantizedTiles&, std::int32_t first, std::int32_t end);
+  template <int kPixels>
+  using Sums = __m256i[kPixels][kVecs];
 
-  QuantizedTiles(const QuantizedProduct& product, std::int32_t panel)
+  QuantizedTiles(const QuantizedProduct& product, std::int32_t panel, std::int32_t blocks)
       : a_(product),
         panel_(panel),
-        weights_(product.pairs + std::ptrdiff_t{panel} * product.to.in_blocks * kLanes * kPanel) {}
+        weights_(product.pairs + std::ptrdiff_t{panel} * product.to.in_blocks * kLanes * kPanel),
+        lower_(product, std::ptrdiff_t{panel} * kPanel),
+        upper_(product, std::ptrdiff_t{panel} * kPanel + (blocks - 1) * kLanes) {}
 
   template <int kCount>
   void sweep() const {
     const Tiling<Run> tiles = tiles_of<kCount, 1, 2, 3, 4, 5, 6>(a_.to.pixels);
-    const std::int32_t after = tiles.each.pixels * tiles.count;
-    run<kCount>(tiles.each, 0, after);
+    tiles.each.run(*this, 0, tiles.each.pixels * tiles.count);
     if (tiles.last.run != nullptr) {
-      run<kCount>(tiles.last, a_.to.pixels - tiles.last.pixels, a_.to.pixels);
+      tiles.last.run(*this, a_.to.pixels - tiles.last.pixels, a_.to.pixels);
     }
   }
 
   template <int kCount, int... kSizes>
   static Tiling<Run> tiles_of(std::int32_t pixels) {
-    static constexpr SizedTile<Run> kTiles[] = {{kSizes, &sums_of<kSizes, kCount>}...};
+    static constexpr SizedTile<Run> kTiles[] = {{kSizes, &run<kSizes, kCount>}...};
     return tiling_of(kTiles, pixels);
   }
 
   // Computes pixels [first, end) in tiles of one size.
-  template <int kCount>
-  void run(const SizedTile<Run>& tile, std::int32_t first, std::int32_t end) const {
-    const std::ptrdiff_t channel = std::ptrdiff_t{panel_} * kPanel;
-    const Finish blocks[] = {Finish(a_, channel),
-                             Finish(a_, kCount == 1 ? channel + kLanes : channel)};
-    PixelPointer<float> y(a_.to.y, a_.to.y_rows, panel_, first);
+  template <int kPixels, int kCount>
+  static void run(const QuantizedTiles& tiles, std::int32_t first, std::int32_t end) {
+    const QuantizedProduct& a = tiles.a_;
+    const Finish lower = tiles.lower_, upper = tiles.upper_;  // in registers, unlike members
+    PixelPointer<float> y(a.to.y, a.to.y_rows, tiles.panel_, first);
     auto residual =
-        PixelPointer<const float>::optional(a_.to.residual, a_.to.residual_rows, panel_, first);
-    for (std::int32_t pixel = first; pixel < end; pixel += tile.pixels) {
-      Sums sums;
-      tile.run(a_, a_.values + std::ptrdiff_t{pixel} * kLanes, weights_, sums);
-      residual.at != nullptr ? convert<kCount, true>(blocks, sums, tile.pixels, y, residual)
-                             : convert<kCount, false>(blocks, sums, tile.pixels, y, residual);
+        PixelPointer<const float>::optional(a.to.residual, a.to.residual_rows, tiles.panel_, first);
+    for (std::int32_t pixel = first; pixel < end; pixel += kPixels) {
+      Sums<kPixels> sums;
+      sums_of<kPixels, kCount>(a, a.values + std::ptrdiff_t{pixel} * kLanes, tiles.weights_, sums);
+      residual.at != nullptr ? convert<kPixels, kCount, true>(lower, upper, sums, y, residual)
+                             : convert<kPixels, kCount, false>(lower, upper, sums, y, residual);
     }
   }
 
-  template <int kCount, bool kResidual>
-  static void convert(const Finish* blocks, const Sums& sums, std::int32_t pixels,
-                      PixelPointer<float>& y, PixelPointer<const float>& residual) {
-    PixelPointer<float> to = y;
-    PixelPointer<const float> r = residual;
-    const Finish low = blocks[0], high = blocks[1];
+  // Converts the sums of a tile. Inlined, so that they stay in registers.
+  template <int kPixels, int kCount, bool kResidual>
+  [[gnu::always_inline]] static void convert(const Finish& lower, const Finish& upper,
+                                             const Sums<kPixels>& sums, PixelPointer<float>& y,
+                                             PixelPointer<const float>& residual) {
     const auto store = [&](std::ptrdiff_t to_half, std::ptrdiff_t r_half, Vec value) {
       if constexpr (kResidual) {
-        value = _mm256_add_ps(value, _mm256_loadu_ps(r.at + r_half));
+        value = _mm256_add_ps(value, _mm256_loadu_ps(residual.at + r_half));
       }
-      _mm256_storeu_ps(to.at + to_half, value);
+      _mm256_storeu_ps(y.at + to_half, value);
     };
-    for (std::int32_t p = 0; p < pixels; ++p, to.advance()) {
-      const __m256i first = load_sums(sums.of[p]), second = load_sums(sums.of[p] + kLanes);
+#pragma GCC unroll 6
+    for (int p = 0; p < kPixels; ++p, y.advance()) {
       if constexpr (kCount == 1) {
-        store(0, 0, low.of(first));
-        store(to.half, r.half, high.of(second));
+        store(0, 0, lower.of(sums[p][0]));
+        store(y.half, residual.half, upper.of(sums[p][1]));
       } else {
-        const __m256i sum = _mm256_hadd_epi32(first, second);
-        store(0, 0, low.of(_mm256_permute4x64_epi64(sum, 0xD8)));
+        const __m256i sum = _mm256_hadd_epi32(sums[p][0], sums[p][1]);
+        store(0, 0, lower.of(_mm256_permute4x64_epi64(sum, 0xD8)));
       }
       if constexpr (kResidual) {
-        r.advance();
+        residual.advance();
       }
     }
-    y = to;
-    residual = r;
   }
 
   // Multiplies 4 kCount bytes at once.
   template <int kPixels, int kCount>
   static void sums_of(const QuantizedProduct& a, const std::int16_t* x, const std::int16_t* w,
-                      Sums& to) {
+                      Sums<kPixels>& to) {
     constexpr int kStep = 2 * kCount;
     constexpr int kAtOnce = std::min(partial_sums(kPixels * kVecs), kLanes / kStep);
     __m256i sum[kAtOnce][kPixels][kVecs];
@@ -192,7 +177,7 @@ class QuantizedTiles {
         for (int k = 1; k < kAtOnce; ++k) {
           total = _mm256_add_epi32(total, sum[k][p][v]);
         }
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to.of[p] + v * kLanes), total);
+        to[p][v] = total;
       }
     }
   }
@@ -200,6 +185,7 @@ class QuantizedTiles {
   const QuantizedProduct& a_;
   std::int32_t panel_;
   const std::int16_t* weights_;
+  Finish lower_, upper_;  // of the blocks of the panel, which may be one
 };
 
 }  // namespace
