@@ -185,12 +185,13 @@ struct Layers {
   // Scales x so that the largest sum of products of the expansion is `largest`. A bias that is much
   // larger than the products would absorb each of them, an error that grows with their number.
   void scale_products(double largest) {
-    const std::vector<Approx> sums = expanded({});
+    const std::vector<Approx> expansion = expanded({});
     const int pixels = shape.window.in_pixels();
     double now = 0x1p-126;
     for (int c = 0; c < shape.hidden_c; ++c) {
       for (int p = 0; p < pixels; ++p) {
-        now = std::max(now, std::abs(sums[blocked(c, p, pixels)].value - widened(b1[as_size(c)])));
+        now = std::max(now,
+                       std::abs(expansion[blocked(c, p, pixels)].value - widened(b1[as_size(c)])));
       }
     }
     scale_input(static_cast<float>(largest / now));
