@@ -6,6 +6,7 @@ arguments=()
 for argument; do
   case $argument in
     -march=armv8.2-a+fp16) arguments+=(-mcpu=generic+v8_2a+fullfp16) ;;
+    -march=armv8.2-a+fp16+dotprod) arguments+=(-mcpu=generic+v8_2a+fullfp16+dotprod) ;;
     -march=armv7-a) arguments+=(-mcpu=generic+v7a+neon+vfp4) ;;
     -mfpu=neon-vfpv4) ;;
     *) arguments+=("$argument") ;;
