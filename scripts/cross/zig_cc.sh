@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Zig's C and C++ compiler with gcc's names of ARM instruction sets, which Zig does not know.
+# Zig's C and C++ compiler with gcc's names of ARM instruction sets, which Zig does not know, and without -fPIE for shared libraries,
+# which it refuses.
 # usage: MIEN_ZIG=PROGRAM scripts/cross/zig_cc.sh cc|c++ -target TARGET OPTION...
 set -euo pipefail
 arguments=()
@@ -9,6 +10,7 @@ for argument; do
     -march=armv8.2-a+fp16+dotprod) arguments+=(-mcpu=generic+v8_2a+fullfp16+dotprod) ;;
     -march=armv7-a) arguments+=(-mcpu=generic+v7a+neon+vfp4) ;;
     -mfpu=neon-vfpv4) ;;
+    -fPIE) [[ " $* " == *" -shared "* ]] || arguments+=(-fPIE) ;;
     *) arguments+=("$argument") ;;
   esac
 done
