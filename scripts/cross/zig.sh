@@ -25,18 +25,7 @@ mkdir -p "$WINEPREFIX"
 work=$PWD/build/zig
 frames=$work/frames.rgb clip=$work/clip.y4m
 ffmpeg -nostdin -v error -y -i tests/data/demo.mp4 -frames:v 30 -s 640x480 -pix_fmt rgb24 -f rawvideo "$frames"
-ffmpeg -nostdin -v error -y -i tests/data/demo.mp4 -frames:v 10 -pix_fmt yuv420p "$clip"
 scripts/package/amalgamate.py -o "$work/amalgamation" >/dev/null
-
-check_machine() {  # target, file: a program or library of that target's system and processor
-  local -A formats=([linux-x64]="ELF 64-bit.*x86-64" [linux-arm64]="ELF 64-bit.*aarch64" [linux-armv7]="ELF 32-bit.*ARM, EABI5"
-    [windows-x64]="PE32\+.*x86-64" [windows-arm64]="PE32\+.*Aarch64")
-  case $1 in
-    macos-arm64) scripts/package/check_macho.py "$2" arm64 --signed ;;
-    macos-x64) scripts/package/check_macho.py "$2" x86_64 ;;
-    *) file -b "$2" | grep -E "${formats[$1]}" >/dev/null || { echo "zig.sh: $2: wrong machine (got $(file -b "$2"), expected $1)" >&2; return 1; } ;;
-  esac
-}
 
 amalgamation() {  # target, emulator or "none"
   local program=$work/$1/amalgamated.exe  # Windows requires this ending
@@ -86,13 +75,7 @@ universal() {  # programs of both builds for macOS
   done
 }
 
-if [ $full -eq 1 ]; then
-  . scripts/ccache.sh
-  cmake --preset release >/dev/null
-  cmake --build --preset release --target mien_program -- --quiet
-  build/release/apps/mien/mien track "$clip" --quiet -o "$work/clip.csv"
-  unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER
-fi
+[ $full -eq 0 ] || { make_clip; make_expected_curves; }
 built="the amalgamation"
 [ $full -eq 0 ] || built+=", the library, mien-conformance and the program mien"
 for target in "${targets[@]}"; do

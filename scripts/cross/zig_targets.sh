@@ -54,9 +54,20 @@ zig_emulator() {  # target
   esac
 }
 
+check_machine() {  # target, file: a program or library of that target's system and processor
+  local -A formats=([linux-x64]="ELF 64-bit.*x86-64" [linux-arm64]="ELF 64-bit.*aarch64" [linux-armv7]="ELF 32-bit.*ARM, EABI5"
+    [windows-x64]="PE32\+.*x86-64" [windows-arm64]="PE32\+.*Aarch64")
+  case $1 in
+    macos-arm64) scripts/package/check_macho.py "$2" arm64 --signed "${@:3}" ;;
+    macos-x64) scripts/package/check_macho.py "$2" x86_64 "${@:3}" ;;
+    *) file -b "$2" | grep -E "${formats[$1]}" >/dev/null || { echo "zig_targets.sh: $2: wrong machine (got $(file -b "$2"), expected $1)" >&2; return 1; } ;;
+  esac
+}
+
 # The program that tests the amalgamation, stripped.
 build_amalgamated() {  # target, folder of the amalgamation, program, options of the compiler
   local compiler=(scripts/cross/zig_cc.sh c++ -target "${ZIG_TARGETS[$1]}" -std=c++20 -O2 "${@:4}") sources=()
+  [[ $1 != linux-* ]] || compiler+=(-fPIE -pie)
   [ "$1" != linux-armv7 ] || compiler+=(-march=armv7-a -mfpu=neon-vfpv4)
   mapfile -t sources < <(find "$2" -name 'mien*.cpp' | sort)
   case $1 in
@@ -79,24 +90,39 @@ build_zlib() {  # target
   local source
   # zlib before 1.3.1 defines fdopen to NULL on macOS unless it is a macro, which the system's header cannot be compiled with.
   for source in "$folder"/source/{adler32,crc32,deflate,inffast,inflate,inftrees,trees,zutil}.c; do
-    "$MIEN_ZIG" cc -target "${ZIG_TARGETS[$1]}" -O2 -fPIC -Dfdopen=fdopen -c "$source" -o "$folder/$1/$(basename "$source" .c).o"
+    "$MIEN_ZIG" cc -target "${ZIG_TARGETS[$1]}" -O2 -fPIC -w -Dfdopen=fdopen -c "$source" -o "$folder/$1/$(basename "$source" .c).o"
   done
   "$MIEN_ZIG" ar rcs "$library" "$folder/$1"/*.o
 }
 
-# Downloads the source package with a copy of the machine's package sources, with its own lists and caches.
-fetch_zlib() {  # folder
-  local apt=$1/apt
-  mkdir -p "$apt/lists/partial" "$apt/sources.d"
-  cp /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list /etc/apt/sources.list "$apt/sources.d/" 2>/dev/null || true
-  sed -i 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' "$apt"/sources.d/*
-  local options=(-qq -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$apt/sources.d" -o "Dir::State::lists=$apt/lists" -o "Dir::Cache=$apt"
-    -o APT::Sandbox::User=root)
-  apt-get "${options[@]}" update
-  (cd "$apt" && apt-get "${options[@]}" source --download-only zlib)
-  mkdir -p "$1/source"
-  tar -xf "$apt"/zlib_*.orig.tar.* -C "$1/source" --strip-components=1
+# apt-get with a copy of the machine's package sources, for other kinds of packages, with its own lists and caches.
+separate_apt() {  # folder, deb or deb-src, architecture, arguments of apt-get
+  mkdir -p "$1/lists/partial" "$1/sources.d"
+  cp /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list /etc/apt/sources.list "$1/sources.d/" 2>/dev/null || true
+  sed -i "s/^Types:.*/Types: $2/; s/^deb /$2 /" "$1"/sources.d/*
+  apt-get -qq -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$1/sources.d" -o "Dir::State::lists=$1/lists" -o "Dir::Cache=$1" \
+    -o Dir::State::status=/dev/null -o "APT::Architecture=$3" -o "APT::Architectures=$3" -o APT::Sandbox::User=root "${@:4}"
 }
+
+fetch_zlib() {  # folder
+  separate_apt "$1/apt" deb-src "$(dpkg --print-architecture)" update
+  (cd "$1/apt" && separate_apt "$1/apt" deb-src "$(dpkg --print-architecture)" source --download-only zlib)
+  mkdir -p "$1/source"
+  tar -xf "$1"/apt/zlib_*.orig.tar.* -C "$1/source" --strip-components=1
+}
+
+# A short clip for programs of all targets: build/zig/clip.y4m.
+make_clip() {
+  ffmpeg -nostdin -v error -y -i tests/data/demo.mp4 -frames:v 10 -pix_fmt yuv420p build/zig/clip.y4m
+}
+
+# Its curves from the release build of this machine, for comparison: build/zig/clip.csv.
+make_expected_curves() (  # a subshell, because Zig must not be started by ccache
+  . scripts/ccache.sh
+  cmake --preset release >/dev/null
+  cmake --build --preset release --target mien_program -- --quiet
+  build/release/apps/mien/mien track build/zig/clip.y4m --quiet -o build/zig/clip.csv
+)
 
 # Configures the library, mien-conformance and the program in build/zig/TARGET, or below ZIG_BUILD.
 configure_zig() {  # target, options of CMake

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks Mach-O programs and libraries: processors, minimum system, libraries, and the ad-hoc signature without which arm64 runs nothing.
 
-usage: scripts/package/check_macho.py FILE ARCHITECTURE... [--signed]      --signed: the arm64 part must be signed; any signature must fit
+usage: scripts/package/check_macho.py FILE ARCHITECTURE... [--signed] [--library NAME]
+  --signed   the arm64 part must be signed; any signature must fit        --library   what the file links beside the system's library
 """
 import argparse
 import hashlib
@@ -71,7 +72,7 @@ def check_signature(data, start, size):
         require(directory[hashes + 32 * i:hashes + 32 * (i + 1)] == digest, f"signature: page {i} was changed")
 
 
-def check_part(architecture, data, signed):
+def check_part(architecture, data, signed, expected):
     libraries, minimum, signature = [], None, None
     for command, content in commands(data):
         if command == LOAD_DYLIB:
@@ -82,7 +83,7 @@ def check_part(architecture, data, signed):
             minimum = (version >> 16, version >> 8 & 0xFF)
         elif command == CODE_SIGNATURE:
             signature = struct.unpack_from("<2I", content, 8)
-    require(libraries == [SYSTEM], f"libraries: got {libraries}, expected {[SYSTEM]}")
+    require(sorted(libraries) == sorted(expected), f"libraries: got {libraries}, expected {expected}")
     require(minimum is not None and minimum <= NEWEST_MINIMUM, f"minimum macOS: got {minimum}, expected at most {NEWEST_MINIMUM}")
     require(signature is not None or not (signed and architecture == "arm64"), "signature: missing")
     if signature is not None:
@@ -95,11 +96,13 @@ def main():
     parser.add_argument("file", type=Path)
     parser.add_argument("architectures", nargs="+")
     parser.add_argument("--signed", action="store_true")
+    parser.add_argument("--library")
     options = parser.parse_args()
     try:
         found = parts(options.file.read_bytes())
         require(set(found) == set(options.architectures), f"architectures: got {sorted(found)}, expected {sorted(options.architectures)}")
-        descriptions = [check_part(architecture, data, options.signed) for architecture, data in found.items()]
+        libraries = [SYSTEM] + ([options.library] if options.library else [])
+        descriptions = [check_part(architecture, data, options.signed, libraries) for architecture, data in found.items()]
     except (Invalid, struct.error) as error:
         sys.exit(f"{options.file}: {error}")
     print(f"{options.file.name}: {'; '.join(descriptions)}")

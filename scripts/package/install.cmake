@@ -46,8 +46,10 @@ if(MIEN_PYTHON_WHEEL)
   set_property(TARGET mien_shared PROPERTY SOVERSION)
   set_property(TARGET mien_shared PROPERTY VERSION)
   install(FILES $<TARGET_FILE:mien_shared> DESTINATION mien COMPONENT python)
-  target_link_options(mien_program PRIVATE -static-libstdc++ -static-libgcc -s -Wl,--gc-sections)
-  set_target_properties(mien_program PROPERTIES INSTALL_RPATH $<IF:$<PLATFORM_ID:Darwin>,@loader_path,$ORIGIN>)
+  target_link_options(mien_program PRIVATE -static-libstdc++ -static-libgcc -s
+    $<IF:$<PLATFORM_ID:Darwin>,-Wl$<COMMA>-dead_strip,-Wl$<COMMA>--gc-sections>)
+  set_target_properties(mien_program PROPERTIES INSTALL_RPATH $<IF:$<PLATFORM_ID:Darwin>,@loader_path,$ORIGIN>
+    BUILD_WITH_INSTALL_RPATH ${CMAKE_CROSSCOMPILING})  # a change at installation would invalidate the signature for macOS
   install(TARGETS mien_program DESTINATION mien COMPONENT python)  # what track_file runs
   install(FILES apps/third_party.txt DESTINATION mien COMPONENT python)
   install(DIRECTORY apps/convert/mien_convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)

@@ -94,7 +94,7 @@ make_npm() {
 export ZIG_BUILD=$build-zig
 zig_build() {  # target, targets of CMake, options of CMake
   read -ra targets <<<"$2"
-  configure_zig "$1" -DMIEN_INSTALL=OFF "${@:3}"
+  (unset CFLAGS CXXFLAGS && configure_zig "$1" -DMIEN_INSTALL=OFF "${@:3}")  # scripts/cross/zig.cmake has these options
   cmake --build "$ZIG_BUILD/$1" --target "${targets[@]}" -- --quiet
 }
 

@@ -99,10 +99,10 @@ def read_table(text):
 
 def written_table(columns):
     known = [target for target in TARGETS if columns[target]]
-    lines = [f"| program | {' | '.join(known)} |", "|---" * (len(known) + 1) + "|"]
+    lines = [f"|program|{'|'.join(known)}|", "|---" * (len(known) + 1) + "|"]
     for title, *_ in [*ROWS, (AMALGAMATION,)]:
         cells = (f"{columns[target][title]:,}" if title in columns[target] else NONE for target in known)
-        lines.append(f"| {title} | {' | '.join(cells)} |")
+        lines.append(f"|{title}|{'|'.join(cells)}|")
     return "\n".join(lines) + "\n"
 
 

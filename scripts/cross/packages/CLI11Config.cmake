@@ -1,3 +1,6 @@
+if(TARGET CLI11::CLI11)
+  return()
+endif()
 # Headers of CLI11 and stb only: the whole of /usr/include would hide those of the target's C library.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/headers)
 foreach(folder CLI stb)
