@@ -5,7 +5,7 @@ set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static programs are also position-independent
 if(MIEN_ZIG_TARGET MATCHES "macos")
   set(CMAKE_SYSTEM_NAME Darwin)
-  set(CMAKE_SYSTEM_VERSION 22)  # macOS 13; without it, programs do not find libraries beside them
+  set(CMAKE_USER_MAKE_RULES_OVERRIDE ${CMAKE_CURRENT_LIST_DIR}/zig_macos.cmake)
   find_program(CMAKE_INSTALL_NAME_TOOL NAMES llvm-install-name-tool llvm-install-name-tool-14 REQUIRED)
 elseif(MIEN_ZIG_TARGET MATCHES "windows")
   set(CMAKE_SYSTEM_NAME Windows)
