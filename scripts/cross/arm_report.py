@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Writes docs/results/arm.md.  usage: arm_report.py WORK_DIR OUT_FILE   (see arm_report.sh)"""
+import json
 import re
 import struct
 import subprocess
@@ -22,6 +23,9 @@ LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neonfp16", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
     ("neondot", "inverted_residual/neondot_product", r"tile<.*HalfPanel, .*ToStrip, 9>", "pointwise, 9 pixels x 8 channels"),
 ]
+TITLES = {"ncnn": "ncnn", "ncnn_16bit": "ncnn, fp16", "litert": "LiteRT (XNNPACK)", "litert_int8": "LiteRT, int8",
+          "onnxruntime": "ONNX Runtime", "onnxruntime_int8": "ONNX Runtime, int8"}
+VISIBLE = 5e-4  # error of an output
 WITHOUT_FP16 = "cortex-a53"
 
 
@@ -62,11 +66,28 @@ def write_with_bounds(source, target):
 
 
 def instructions(machines, work):
-    """Rows of the networks: instructions per multiply-accumulate of each machine, and their ratio to the last one's."""
+    """Rows of the networks: instructions per multiply-accumulate of each machine, and their ratio to the last one's;
+    and multiply-accumulates by network."""
+    rows, macs = [], {}
     for network in NETWORKS:
         counts = [machine.one_run(work, network) for machine in machines]
-        per_mac = [count / macs for count, macs in counts]
-        yield ["_".join(network), *(f"{each:.3f} ({each / per_mac[-1]:.2f})" for each in per_mac[:-1]), f"{per_mac[-1]:.3f}"]
+        per_mac, name = [count / macs_of_run for count, macs_of_run in counts], "_".join(network)
+        macs[name] = counts[0][1]
+        rows.append([name, *(f"{each:.3f} ({each / per_mac[-1]:.2f})" for each in per_mac[:-1]), f"{per_mac[-1]:.3f}"])
+    return rows, macs
+
+
+def others(file, macs):
+    """The section about other engines, from the results of arm_peers.sh."""
+    found = json.loads(file.read_text())
+    names = list(next(iter(found.values())))
+    error = lambda row: f" ({100 * row['difference']:.1f} %)" if row["difference"] > VISIBLE else ""
+    cell = lambda row, name: f"{row['instructions'] / macs[name]:.3f}{error(row)}"
+    rows = [[TITLES[engine], *(cell(networks[name], name) for name in names)] for engine, networks in found.items()]
+    return f"""
+Other engines on an emulated Cortex-A76 (`scripts/cross/arm_peers.sh`), with the relative error of the output on faces:
+
+{table(["engine", *names], rows)}"""
 
 
 def version(program):
@@ -88,6 +109,7 @@ def main():
     header = ["tier", "inner loop", *predict.CPUS]
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
+    rows, macs = instructions((neon, neonfp16, neondot, avx2), work)
     text = f"""# Predicted speed on ARM
 
 For developers of kernels. No ARM machine was available: `scripts/cross/arm_report.sh` predicts loops and counts instructions.
@@ -104,7 +126,7 @@ arithmetic. Code of gcc; that of clang differs by at most {difference} points.
 One run of a network, counted by qemu-user; in parentheses relative to AVX2, whose vectors have twice the width of NEON's.
 `neondot` has [8 bits](int8.md) in pointwise layers.
 
-{table(["network", "neon", "neonfp16", "neondot", "avx2"], instructions((neon, neonfp16, neondot, avx2), work))}"""
+{table(["network", "neon", "neonfp16", "neondot", "avx2"], rows)}{others(out.parent / "arm_peers.json", macs)}"""
     out.write_text(text)
 
 
