@@ -36,7 +36,8 @@ std::vector<std::string> processor_names(std::istream& cpuinfo) {
     } else if (key == "CPU implementer") {
       implementer = value;
     } else if (key == "CPU part") {
-      names.back() = "implementer " + implementer + " part " + value;
+      names.back() = "implementer ";
+      names.back().append(implementer).append(" part ").append(value);
     }
   }
   return names;
