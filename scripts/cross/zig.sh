@@ -70,7 +70,7 @@ universal() {  # programs of both builds for macOS
     [ -f "$work/macos-arm64/$file" ] || continue
     [ -f "$work/macos-x64/$file" ] || continue
     "$(llvm_tool llvm-lipo)" -create "$work/macos-arm64/$file" "$work/macos-x64/$file" -output "$work/macos/${file##*/}"
-    scripts/package/check_macho.py "$work/macos/${file##*/}" arm64 x86_64 --signed
+    tests/package/check_macho.py "$work/macos/${file##*/}" arm64 x86_64 --signed
     echo "macos: ${file##*/}: universal program in build/zig/macos, linked, never run"
   done
 }

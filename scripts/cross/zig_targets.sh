@@ -58,8 +58,8 @@ check_machine() {  # target, file: a program or library of that target's system 
   local -A formats=([linux-x64]="ELF 64-bit.*x86-64" [linux-arm64]="ELF 64-bit.*aarch64" [linux-armv7]="ELF 32-bit.*ARM, EABI5"
     [windows-x64]="PE32\+.*x86-64" [windows-arm64]="PE32\+.*Aarch64")
   case $1 in
-    macos-arm64) scripts/package/check_macho.py "$2" arm64 --signed "${@:3}" ;;
-    macos-x64) scripts/package/check_macho.py "$2" x86_64 "${@:3}" ;;
+    macos-arm64) tests/package/check_macho.py "$2" arm64 --signed "${@:3}" ;;
+    macos-x64) tests/package/check_macho.py "$2" x86_64 "${@:3}" ;;
     *) file -b "$2" | grep -E "${formats[$1]}" >/dev/null || { echo "zig_targets.sh: $2: wrong machine (got $(file -b "$2"), expected $1)" >&2; return 1; } ;;
   esac
 }

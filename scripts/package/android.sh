@@ -62,5 +62,5 @@ for abi in "${abis[@]}"; do
   libraries+=("$abi=$out/$abi/libmien_jni.so")
 done
 bindings/android/aar.sh "$out/mien.aar" "$out/classes" "${libraries[@]}"
-scripts/package/check_aar.py "$out/mien.aar" "${abis[@]}"
+tests/package/check_aar.py "$out/mien.aar" "${abis[@]}"
 echo "android: the AAR was linked for ${abis[*]} against stand-ins for Android's libraries, and has never run"

@@ -125,7 +125,7 @@ make_conformance() {
   done
   mkdir -p "$ZIG_BUILD/macos"
   "$(llvm_tool llvm-lipo)" -create "$ZIG_BUILD/macos-arm64/$program" "$ZIG_BUILD/macos-x64/$program" -output "$ZIG_BUILD/macos/mien-conformance"
-  scripts/package/check_macho.py "$ZIG_BUILD/macos/mien-conformance" arm64 x86_64 --signed >/dev/null
+  tests/package/check_macho.py "$ZIG_BUILD/macos/mien-conformance" arm64 x86_64 --signed >/dev/null
   conformance_archive macos "$ZIG_BUILD/macos/mien-conformance"
   conformance_archive windows-x64 "$ZIG_BUILD/windows-x64/$program.exe"
   conformance_archive windows-arm64 "$ZIG_BUILD/windows-arm64/$program.exe"

@@ -34,13 +34,13 @@ slice ios-arm64 ios-arm64
 slice ios-arm64_x86_64-simulator ios-simulator-arm64 ios-simulator-x64
 slice macos-arm64_x86_64 macos-arm64 macos-x64
 cp scripts/package/apple/Info.plist "$out/"
-scripts/package/check_xcframework.py "$out"
+tests/package/check_xcframework.py "$out"
 
 # The library of macOS in a program, whose C++ library is Zig's.
 for target in macos-arm64 macos-x64; do
   scripts/cross/zig_cc.sh cc -target "${ZIG_TARGETS[$target]}" -I"$out/macos-arm64_x86_64/Headers" -c -o "build/apple/$target.o" tests/package/c/main.c
   scripts/cross/zig_cc.sh c++ -target "${ZIG_TARGETS[$target]}" "build/apple/$target.o" "build/apple/$target.a" -o "build/apple/$target"
 done
-scripts/package/check_macho.py build/apple/macos-arm64 arm64 --signed
-scripts/package/check_macho.py build/apple/macos-x64 x86_64
+tests/package/check_macho.py build/apple/macos-arm64 arm64 --signed
+tests/package/check_macho.py build/apple/macos-x64 x86_64
 echo "xcframework: compiled for iOS, its simulator and macOS; linked for macOS; never run"

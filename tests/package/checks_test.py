@@ -1,4 +1,4 @@
-"""Tests of the checks of packages, and of releases: scripts/package/check_aar.py, check_xcframework.py, sbom.py and sizes.py.
+"""Tests of the checks of packages (check_aar.py, check_xcframework.py), and of scripts/package: sbom.py and sizes.py.
 
 usage: checks_test.py
 """

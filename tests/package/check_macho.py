@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks Mach-O programs and libraries: processors, minimum system, libraries, and the ad-hoc signature without which arm64 runs nothing.
 
-usage: scripts/package/check_macho.py FILE ARCHITECTURE... [--signed] [--library NAME]
+usage: tests/package/check_macho.py FILE ARCHITECTURE... [--signed] [--library NAME]
   --signed   the arm64 part must be signed; any signature must fit        --library   what the file links beside the system's library
 """
 import argparse

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks an AAR: its files, prefab's descriptions, and that each library is for its ABI, has 16 KB pages and imports only Android's libraries.
 
-usage: scripts/package/check_aar.py FILE.aar ABI...
+usage: tests/package/check_aar.py FILE.aar ABI...
 """
 import io
 import json

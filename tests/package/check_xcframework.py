@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks an XCFramework: its property list, and that each library is for the listed system and processors.
 
-usage: scripts/package/check_xcframework.py FOLDER.xcframework
+usage: tests/package/check_xcframework.py FOLDER.xcframework
 """
 import plistlib
 import struct
