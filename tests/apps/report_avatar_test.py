@@ -7,6 +7,7 @@ import csv
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -180,6 +181,16 @@ class Page(report_browser.PageTest):
     def test_a_contained_avatar_without_a_decoder(self):
         self.open("packed.glb.html")
         self.assertIn("Draco", self.error())
+        self.assertTrue(self.js("report.face.avatar instanceof Avatar"))
+
+    def test_a_package_without_the_viewer(self):
+        with open(Folder.file("me.glb.html"), encoding="utf-8") as file:
+            text, count = re.subn('(<script[^>]* id="viewer">)[^<]*', r"\1", file.read())
+        self.assertEqual(count, 1)
+        with open(Folder.file("without.html"), "w", encoding="utf-8") as file:
+            file.write(text)
+        self.open("without.html")
+        self.assertIn("cannot show your avatar", self.error())
         self.assertTrue(self.js("report.face.avatar instanceof Avatar"))
 
     def test_meshopt(self):

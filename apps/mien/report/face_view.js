@@ -2,6 +2,9 @@
 
 // Runs the script that shows users' avatars (apps/web/src/model/model_avatar.js), which the page contains packed.
 async function unpackViewer() {
+  if (!document.getElementById('viewer').textContent) {
+    throw new Error("The Python package's reports cannot show your avatar. Reports of the other packages of mien can.");
+  }
   const script = document.createElement('script');
   script.textContent = new TextDecoder().decode(await inflated('viewer'));
   document.head.append(script);
