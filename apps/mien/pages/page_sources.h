@@ -12,7 +12,8 @@ extern const char kLivePage[];
 extern const char kObsPage[];
 extern const char kReportPage[];
 
-// The script of the viewer of users' avatars as a zlib stream, empty in Python wheels, and its hash for the page's policy.
+// The script of the viewer of users' avatars as a zlib stream, empty in Python wheels, and its hash
+// for the page's policy.
 extern const std::string_view kViewer;
 extern const char kViewerHash[];
 
