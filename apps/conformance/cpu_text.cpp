@@ -16,7 +16,7 @@ Field split(const std::string& line) {
     return {};
   }
   const std::size_t begin = line.find_first_not_of(" \t", colon + 1);
-  return {line.substr(0, line.find_last_not_of(" \t", colon - (colon > 0 ? 1 : 0)) + 1),
+  return {line.substr(0, line.find_first_of("\t:")),  // Linux pads keys with tabs
           begin == std::string::npos ? "" : line.substr(begin)};
 }
 
