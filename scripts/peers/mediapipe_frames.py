@@ -6,7 +6,6 @@ It follows the face from frame to frame, as mien does. The process runs on one
 processor, so that its threads do not run in parallel.
 """
 import json
-import subprocess
 import sys
 import time
 from importlib.metadata import distribution
@@ -14,18 +13,10 @@ from pathlib import Path
 
 import mediapipe as mp
 import numpy as np
+from clip_frames import FPS, frames
 from mediapipe.tasks.python import BaseOptions, vision
 
-WIDTH, HEIGHT, FPS = 640, 480, 30
 ROUNDS = 5  # of each frame the fastest counts, as in `mien bench --levels`
-
-
-def frames(clip):
-    command = ["ffmpeg", "-nostdin", "-v", "error", "-i", clip, "-s", f"{WIDTH}x{HEIGHT}", "-pix_fmt", "rgb24", "-f",
-               "rawvideo", "-"]
-    data = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
-    return [mp.Image(image_format=mp.ImageFormat.SRGB, data=np.array(f))
-            for f in np.frombuffer(data, np.uint8).reshape(-1, HEIGHT, WIDTH, 3)]
 
 
 def main():
@@ -33,7 +24,7 @@ def main():
     options = vision.FaceLandmarkerOptions(base_options=BaseOptions(model_asset_path=task),
                                            running_mode=vision.RunningMode.VIDEO,
                                            output_face_blendshapes=True, output_facial_transformation_matrixes=True)
-    pictures, times, faces = frames(clip), [], 0
+    pictures, times, faces = [mp.Image(image_format=mp.ImageFormat.SRGB, data=np.array(f)) for f in frames(clip)], [], 0
     with vision.FaceLandmarker.create_from_options(options) as landmarker:
         for i in range(ROUNDS * len(pictures)):
             begin = time.perf_counter_ns()

@@ -16,11 +16,10 @@ def onnxruntime(stem, faces):
 
     class Faces(q.CalibrationDataReader):
         def __init__(self):
-            self.rest = iter(faces)
+            self.inputs = ({"image": face[None]} for face in faces)
 
         def get_next(self):
-            face = next(self.rest, None)
-            return None if face is None else {"image": face[None]}
+            return next(self.inputs, None)
 
     cleaned = f"{stem}.cleaned.onnx"
     q.shape_inference.quant_pre_process(f"{stem}.onnx", cleaned, skip_symbolic_shape=True)

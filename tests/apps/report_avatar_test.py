@@ -8,14 +8,12 @@ import json
 import math
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
 import avatar_files
-import chromium
 import report_browser
 import report_page
 
@@ -210,11 +208,4 @@ class Page(report_browser.PageTest):
 
 if __name__ == "__main__":
     MIEN = sys.argv.pop(1)
-    if not shutil.which("ffmpeg") or not chromium.find() or not os.path.exists(os.path.join(SOURCE, "models", "basenet.mien")):
-        print("SKIPPED: avatars in reports were NOT tested: ffmpeg, Chromium or the weights are missing", file=sys.stderr)
-        sys.exit(77)
-    Folder.make()
-    try:
-        unittest.main(verbosity=2)
-    finally:
-        shutil.rmtree(Folder.path)
+    report_browser.main(Folder, "avatars in reports", with_browser=True)

@@ -1,5 +1,7 @@
-"""Reports in headless Chromium."""
+"""Reports in headless Chromium, and what tests of reports need."""
 import os
+import shutil
+import sys
 import time
 import unittest
 
@@ -71,3 +73,18 @@ class PageTest(unittest.TestCase):
           const copy = Object.assign(document.createElement('canvas'), {{width, height}}).getContext('2d', {{willReadFrequently: true}});
           copy.drawImage(canvas, 0, 0);
           return copy.getImageData(0, 0, width, height).data.filter((value, i) => i % 4 === 3 && value).length; }})()""")
+
+
+def main(folder, subject, with_browser=False):
+    """Runs the tests with the files that `folder.make` writes; exit code 77 where something that they need is missing."""
+    weights = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "models", "basenet.mien")
+    needed = {"ffmpeg": shutil.which("ffmpeg"), "Chromium": not with_browser or chromium.find(), "the weights": os.path.exists(weights)}
+    missing = [name for name, found in needed.items() if not found]
+    if missing:
+        print(f"SKIPPED: {subject} were NOT tested: {' and '.join(missing)} not available", file=sys.stderr)
+        sys.exit(77)
+    folder.make()
+    try:
+        unittest.main(verbosity=2)
+    finally:
+        shutil.rmtree(folder.path)

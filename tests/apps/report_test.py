@@ -8,7 +8,6 @@ import csv
 import glob
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -369,11 +368,4 @@ class Page(report_browser.PageTest):
 
 if __name__ == "__main__":
     MIEN = sys.argv.pop(1)
-    if not shutil.which("ffmpeg") or not os.path.exists(os.path.join(SOURCE, "models", "basenet.mien")):
-        print("SKIPPED: reports were NOT tested: ffmpeg or the weights are missing", file=sys.stderr)
-        sys.exit(77)
-    Folder.make()
-    try:
-        unittest.main(verbosity=2)
-    finally:
-        shutil.rmtree(Folder.path)
+    report_browser.main(Folder, "reports")
