@@ -68,33 +68,47 @@ inline Widened widen(const Halves& weights, std::ptrdiff_t rows, float* space) {
   return {space};
 }
 
-// sums[p][v] += x[p][k] w[k][v] for the 4 contiguous inputs k of x. Pixels of x are `step` floats
-// apart.
-template <int kLane, int kPixels, int kVecs>
-[[gnu::always_inline]] inline void add_input(const Vec (&row)[kVecs], const Vec (&x)[kPixels],
-                                             Vec (&sums)[kPixels][kVecs]) {
-  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-    MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
-      sums[p][v] = fma_lane<kLane>(sums[p][v], row[v], x[p]);
-    }
+[[gnu::always_inline]] inline Pair load_weights(const float* at) { return load_pair(at); }
+[[gnu::always_inline]] inline Pair load_weights(const std::uint16_t* at) {
+  return load_half_pair(at);
+}
+
+// Adds the products of 4 inputs from pair kPair of their weights on, which `pair` has; the sums
+// have kParts parts, each of every kParts-th input. The next pair is loaded first, because CPUs
+// that execute in order wait for a load before its use.
+template <int kPair, int kParts, int kPixels, int kVecs, class T>
+[[gnu::always_inline]] inline void add_from_pair(const T* w, std::ptrdiff_t row_elems, Pair pair,
+                                                 const Vec (&x)[kPixels],
+                                                 Vec (&sums)[kParts][kPixels][kVecs]) {
+  constexpr int kPairs = kVecs / 2, kLane = kPair / kPairs, kFirst = 2 * (kPair % kPairs);
+  constexpr int kNext = kPair + 1;
+  Pair next = pair;
+  if constexpr (kNext < kLanes * kPairs) {
+    next = load_weights(w + kNext / kPairs * row_elems + 2 * kLanes * (kNext % kPairs));
+  }
+  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
+    Vec(&sum)[kVecs] = sums[kLane % kParts][p];
+    sum[kFirst] = fma_lane<kLane>(sum[kFirst], pair.low, x[p]);
+  }
+  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
+    Vec(&sum)[kVecs] = sums[kLane % kParts][p];
+    sum[kFirst + 1] = fma_lane<kLane>(sum[kFirst + 1], pair.high, x[p]);
+  }
+  if constexpr (kNext < kLanes * kPairs) {
+    add_from_pair<kNext>(w, row_elems, next, x, sums);
   }
 }
-// The same in kParts partial sums, each of every kParts-th input.
+
+// sums[p][v] += x[p][k] w[k][v] for the 4 contiguous inputs k of x. Pixels of x are `step` floats
+// apart.
 template <int kParts, int kPixels, int kVecs, class T>
 [[gnu::always_inline]] inline void add_four_inputs(const float* x, std::ptrdiff_t step, const T* w,
                                                    std::ptrdiff_t row_elems,
                                                    Vec (&sums)[kParts][kPixels][kVecs]) {
+  const Pair pair = load_weights(w);
   Vec inputs[kPixels];
   MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) { inputs[p] = vld1q_f32(x + p * step); }
-  Vec row[kVecs];
-  load_row(w, row);
-  add_input<0>(row, inputs, sums[0]);
-  load_row(w + row_elems, row);
-  add_input<1>(row, inputs, sums[1 % kParts]);
-  load_row(w + 2 * row_elems, row);
-  add_input<2>(row, inputs, sums[2 % kParts]);
-  load_row(w + 3 * row_elems, row);
-  add_input<3>(row, inputs, sums[3 % kParts]);
+  add_from_pair<0>(w, row_elems, pair, inputs, sums);
 }
 
 template <int kParts, int kPixels, int kVecs>

@@ -46,7 +46,10 @@ template <int kPixels, int kVecs, class T>
     MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) { inputs[p] = vld1q_dup_f32(x + p * step); }
     Vec row[kVecs];
     load_row(w, row);
-    add_input<0>(row, inputs, sums[0]);
+    MIEN_UNROLLED for (int i = 0; i < kPixels * kVecs; ++i) {
+      const int p = i % kPixels, v = i / kPixels;
+      sums[0][p][v] = fma_lane<0>(sums[0][p][v], row[v], inputs[p]);
+    }
   }
 }
 

@@ -27,14 +27,39 @@ struct Job {
   std::int32_t column, row_pixels;
 };
 
-template <int kLane, int kPixels, int kVecs>
-[[gnu::always_inline]] inline void add_input(const Half* w, const HalfVec (&x)[kPixels],
-                                             HalfVec (&sums)[kPixels][kVecs]) {
+// Weights of one input.
+template <int kVecs>
+struct Row {
+  HalfVec vecs[kVecs];
+  explicit Row(const Half* w) {
+    MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { vecs[v] = load_halves(w + v * kHalves); }
+  }
+};
+
+// Adds the products of an input to one of the partial sums.
+template <int kLane, int kParts, int kPixels, int kVecs>
+[[gnu::always_inline]] inline void add_input(const Row<kVecs>& row, const HalfVec (&x)[kPixels],
+                                             HalfVec (&sums)[kParts][kPixels][kVecs]) {
   MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-    const HalfVec row = load_halves(w + (kLane * kVecs + v) * kHalves);
     MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
-      sums[p][v] = fma_lane<kLane>(sums[p][v], row, x[p]);
+      HalfVec& sum = sums[kLane % kParts][p][v];
+      sum = fma_lane<kLane>(sum, row.vecs[v], x[p]);
     }
+  }
+}
+
+// Adds inputs kLane to 7. The next weights are loaded first, because CPUs that execute in order
+// wait for a load before its use.
+template <int kLane, int kParts, int kPixels, int kVecs>
+[[gnu::always_inline]] inline void add_inputs(const Half* w, const Row<kVecs>& row,
+                                              const HalfVec (&x)[kPixels],
+                                              HalfVec (&sums)[kParts][kPixels][kVecs]) {
+  if constexpr (kLane == kBlock - 1) {
+    add_input<kLane>(row, x, sums);
+  } else {
+    const Row<kVecs> next(w + (kLane + 1) * kVecs * kHalves);
+    add_input<kLane>(row, x, sums);
+    add_inputs<kLane + 1>(w, next, x, sums);
   }
 }
 
@@ -42,16 +67,10 @@ template <int kLane, int kPixels, int kVecs>
 template <int kParts, int kPixels, int kVecs>
 [[gnu::always_inline]] inline void add_block(const Half* x, const Half* w,
                                              HalfVec (&sums)[kParts][kPixels][kVecs]) {
+  const Row<kVecs> row(w);
   HalfVec inputs[kPixels];
   MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) { inputs[p] = load_halves(x + p * kPanel); }
-  add_input<0>(w, inputs, sums[0]);
-  add_input<1>(w, inputs, sums[1 % kParts]);
-  add_input<2>(w, inputs, sums[2 % kParts]);
-  add_input<3>(w, inputs, sums[3 % kParts]);
-  add_input<4>(w, inputs, sums[0]);
-  add_input<5>(w, inputs, sums[1 % kParts]);
-  add_input<6>(w, inputs, sums[2 % kParts]);
-  add_input<7>(w, inputs, sums[3 % kParts]);
+  add_inputs<0>(w, row, inputs, sums);
 }
 
 template <int kPixels, int kVecs>

@@ -103,8 +103,8 @@ using WidenedSizes = std::conditional_t<kVecs == 4, Sizes<3, 4, 5>, Sizes<5, 7, 
 using HalvesSizes = Sizes<1, 2, 3, 4, 6, 9>;
 #else
 template <int kVecs>
-using WidenedSizes = std::conditional_t<kVecs == 4, Sizes<1, 2>, Sizes<2, 3, 4>>;
-using HalvesSizes = Sizes<1, 2, 3, 4>;
+using WidenedSizes = std::conditional_t<kVecs == 4, Sizes<1, 2>, Sizes<2, 4>>;
+using HalvesSizes = Sizes<1, 2, 4>;  // 3 would not fit the registers
 #endif
 
 // All tiles of `pixels` pixels have one size; if necessary, the last overlaps the previous one.
