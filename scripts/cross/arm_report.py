@@ -26,7 +26,12 @@ LOOPS = [  # tier, object, pattern of the function's name, what it is
 TITLES = {"ncnn": "ncnn", "ncnn_16bit": "ncnn, fp16", "litert": "LiteRT (XNNPACK)", "litert_int8": "LiteRT, int8",
           "onnxruntime": "ONNX Runtime", "onnxruntime_int8": "ONNX Runtime, int8"}
 VISIBLE = 5e-4  # error of an output
-WITHOUT_FP16 = "cortex-a53"
+WITHOUT_FP16 = "Cortex-A53"
+X86_LOOPS = [  # kernel, object, pattern of the function's name
+    ("pointwise", "pointwise/avx2_product", r"tile<6, 2, float>"),
+    ("fully_connected", "fully_connected/avx2", r"avx2::fully_connected"),
+    ("causal_conv", "causal_conv/avx2", r"avx2::causal_conv"),
+]
 
 
 def table(header, rows):
@@ -34,8 +39,8 @@ def table(header, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
-def loop_of(folder, name, pattern):
-    found = inner_loops.functions("aarch64-linux-gnu-objdump", folder / f"{name}.cpp.o")
+def loop_of(folder, name, pattern, objdump="aarch64-linux-gnu-objdump"):
+    found = inner_loops.functions(objdump, folder / f"{name}.cpp.o")
     return inner_loops.busiest_loop(next(body for function, body in found.items() if re.search(pattern, function)))
 
 
@@ -43,9 +48,16 @@ def predictions(folder_of):
     rows = []
     for tier, name, pattern, what in LOOPS:
         loop = loop_of(folder_of(tier), name, pattern)
-        rows.append([tier, what, *("-" if tier != "neon" and cpu == WITHOUT_FP16
-                                   else f"{predict.share_of_limit(loop, cpu, 'fmla', 'fmul', 'sdot'):.0%}" for cpu in predict.CPUS)])
+        rows.append([tier, what, *("-" if tier != "neon" and cpu == WITHOUT_FP16 else f"{predict.share_of_limit(loop, model):.0%}"
+                                   for cpu, model in predict.CPUS.items())])
     return rows
+
+
+def predictions_and_measurements(folder, conformance):
+    """Rows of kernels of this machine's CPU: predicted, and measured of the peak that it reaches."""
+    measured = {row["name"]: row for row in json.loads(output_of(conformance, "--tier", "avx2", "--bench", "--json", "-"))["results"]}
+    return [[f"`{kernel}`, avx2", f"{predict.share_of_limit(loop_of(folder, name, pattern, 'objdump'), predict.HOST):.0%}",
+             f"{measured[kernel]['peak_share']:.0%}"] for kernel, name, pattern in X86_LOOPS]
 
 
 def largest_difference(rows, others):
@@ -90,9 +102,12 @@ Other engines on an emulated Cortex-A76 (`scripts/cross/arm_peers.sh`), with the
 {table(["engine", *names], rows)}"""
 
 
+def output_of(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
 def version(program):
-    out = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
-    return next(line for line in out.splitlines() if re.search(r"\d+\.\d+", line)).strip()
+    return next(line for line in output_of(program, "--version").splitlines() if re.search(r"\d+\.\d+", line)).strip()
 
 
 def main():
@@ -109,6 +124,8 @@ def main():
     header = ["tier", "inner loop", *predict.CPUS]
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
+    x64 = work / "report-x64"
+    checked = predictions_and_measurements(x64 / "kernels/CMakeFiles/mien_kernels_avx2.dir", x64 / "apps/conformance/mien-conformance")
     rows, macs = instructions((neon, neonfp16, neondot, avx2), work)
     text = f"""# Predicted speed on ARM
 
@@ -116,11 +133,14 @@ For developers of kernels. No ARM machine was available: `scripts/cross/arm_repo
 
 ## Inner loops
 
-Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
-most 82 %, because clamps use the same units. llvm-mca 14 uses the model of Cortex-A57 for A76, and ignores cache misses. {WITHOUT_FP16} has no fp16
+Predictions of llvm-mca ({version(predict.PROGRAM)}): the cycles that the multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
+most 82 %, because clamps use the same units. The models of A76 and X1 are those of Neoverse N1 and V1. {WITHOUT_FP16} has no fp16
 arithmetic. Code of gcc; that of clang differs by at most {difference} points.
 
 {table(header, by_gcc)}
+The same for kernels of x86, and the share of the peak that they reach on that CPU, with all that surrounds the loop:
+
+{table(["kernel", "predicted", "measured"], checked)}
 ## Instructions per multiply-accumulate
 
 One run of a network, counted by qemu-user; in parentheses relative to AVX2, whose vectors have twice the width of NEON's.

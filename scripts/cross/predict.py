@@ -4,19 +4,22 @@ import subprocess
 
 import inner_loops
 
-CPUS = ["cortex-a53", "cortex-a55", "cortex-a76"]
+# LLVM has models of the server cores that share A76's and X1's designs, and uses A57's for A76 and X1.
+CPUS = {"Cortex-A53": "cortex-a53", "Cortex-A55": "cortex-a55", "Cortex-A76": "neoverse-n1", "Cortex-X1": "neoverse-v1"}
 ITERATIONS = 200
+PROGRAM = "llvm-mca-19"
+HOST = "the CPU of this machine"
 
 
 def _report(loop, cpu):
-    out = subprocess.run(["llvm-mca", "-mtriple=aarch64", f"-mcpu={cpu}", f"-iterations={ITERATIONS}"],
-                         input=inner_loops.assembly(loop), check=True, capture_output=True,
-                         text=True).stdout
+    machine = ["-mcpu=native"] if cpu == HOST else ["-mtriple=aarch64", f"-mcpu={cpu}", "-mattr=+fullfp16,+dotprod"]
+    out = subprocess.run([PROGRAM, *machine, f"-iterations={ITERATIONS}"], input=inner_loops.assembly(loop), check=True,
+                         capture_output=True, text=True).stdout
     cycles = int(re.search(r"Total Cycles:\s+(\d+)", out).group(1)) / ITERATIONS
     return cycles, float(re.search(r"Block RThroughput:\s+([\d.]+)", out).group(1))
 
 
-def share_of_limit(loop, cpu, *mnemonics):
-    """Cycles that the units need for these instructions alone, over the cycles the loop takes."""
-    alone = [one for one in loop if one[1] in mnemonics]
+def share_of_limit(loop, cpu):
+    """Cycles that the units need for the products alone, over the cycles the loop takes."""
+    alone = [one for one in loop if one[1] in (*inner_loops.MULTIPLIES, "fmul")]
     return _report(alone, cpu)[1] / _report(loop, cpu)[0]
