@@ -19,7 +19,7 @@ IN_PROGRAMS = {"libcli11-dev": ("CLI11", "BSD-3-Clause"), "nlohmann-json3-dev": 
 IN_REPORTS = ("three", "@pixiv/three-vrm")
 WITH_PROGRAMS = re.compile(rf"\.deb$|\.whl$|-linux-{os.uname().machine}\.tar\.gz$|-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
 # Libraries that Zig links statically, with the version of its PyPI package; zlib is Debian's source.
-BY_ZIG = re.compile(r"-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
+BY_ZIG = re.compile(r"-conformance-|-static\.tar\.gz$|-windows-x64\.zip$|-(manylinux|musllinux|macosx|win)_\w+\.whl$")
 IN_ZIG = {"libc++": "Apache-2.0 WITH LLVM-exception", "musl": "MIT", "mingw-w64": "ZPL-2.1"}
 
 

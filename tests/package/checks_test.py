@@ -136,11 +136,14 @@ class Release(Folder):
 
     @unittest.mock.patch.dict(os.environ, SOURCE_DATE_EPOCH="0")
     def test_bill_names_what_programs_contain(self):
-        for name, programs in (("mien-0.1.0-py3-none-any.whl", True), ("mien_0.1.0_amd64.deb", True), ("mien-0.1.0.tar.gz", False)):
+        for name, programs, by_zig in (
+                ("mien-0.1.0-py3-none-linux_x86_64.whl", True, False), ("mien-0.1.0-py3-none-manylinux_2_28_aarch64.whl", True, True),
+                ("mien-0.1.0-py3-none-win_amd64.whl", True, True), ("mien_0.1.0_amd64.deb", True, False), ("mien-0.1.0.tar.gz", False, False)):
             file = self.folder / name
             file.write_bytes(b"")
             contained = {package["name"] for package in sbom.document("0.1.0", self.folder)["packages"]}
             self.assertEqual("CLI11" in contained, programs, name)
+            self.assertEqual("libc++" in contained, by_zig, name)
             file.unlink()
 
 
