@@ -60,7 +60,7 @@ check_machine() {  # target, file: a program or library of that target's system 
   case $1 in
     macos-arm64) tests/package/check_macho.py "$2" arm64 --signed "${@:3}" ;;
     macos-x64) tests/package/check_macho.py "$2" x86_64 "${@:3}" ;;
-    *) file -b "$2" | grep -E "${formats[$1]}" >/dev/null || { echo "zig_targets.sh: $2: wrong machine (got $(file -b "$2"), expected $1)" >&2; return 1; } ;;
+    *) file -bL "$2" | grep -E "${formats[$1]}" >/dev/null || { echo "zig_targets.sh: $2: wrong machine (got $(file -bL "$2"), expected $1)" >&2; return 1; } ;;
   esac
 }
 

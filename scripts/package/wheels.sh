@@ -62,10 +62,17 @@ check_wheel() {  # target, wheel, folder of the package
       grep -viE '^(api-ms-win-.*|kernel32|ntdll|advapi32|ws2_32|shell32|user32|ole32|libmien)\.dll$' || true)
     [ -z "$foreign" ] || { echo "wheels.sh: $file: DLLs that Windows does not have (got $foreign)" >&2; return 1; }
   done
-  [[ $1 == m*linux-* ]] || return 0
-  "$python" -m auditwheel show --json "$2" | "$python" -c '
+  [[ $1 != manylinux-* ]] || audit "$1" "$2"
+  # musl's loader takes libc.so for itself under any distribution's name, but auditwheel knows only Alpine's.
+  [[ $1 != musllinux-* ]] || audit "$1" "$2" --ldpaths "$3"
+}
+
+audit() {  # target, wheel, options
+  "$python" -m auditwheel show --json "${@:3}" "$2" | "$python" -c '
 import json, re, sys
-tag, wanted = json.load(sys.stdin)["overall_tag"], sys.argv[1]
+shown, wanted = json.load(sys.stdin), sys.argv[1]
+musl = wanted.startswith("musl") and set(shown["external_libs"]) == {"libc.so"}
+tag = shown["sym_tag" if musl else "overall_tag"]
 (libc, got, machine), expected = (re.fullmatch(r"([a-z]+)_\d_(\d+)_(.*)|.*", text).groups() for text in (tag, wanted))
 sys.exit(None if got and (libc, machine) == (expected[0], expected[2]) and int(got) <= int(expected[1]) else f"auditwheel: got {tag}, expected {wanted}")' \
     "${PLATFORMS[$1]}"
