@@ -10,6 +10,8 @@ struct Outputs {
   const std::uint16_t* weights;
   std::int32_t width;  // of the panel: 16 or 8
   std::int32_t inputs, reduction;
+  // Elements of the sum that are stored together.
+  [[nodiscard]] std::int32_t together() const { return width == kPanel ? 4 : 8; }
   [[nodiscard]] Vec at(std::int32_t k) const {
     return k < inputs ? load_half(weights + std::ptrdiff_t{k} * width) : splat(0.0f);
   }
@@ -37,7 +39,7 @@ int32x4_t quad_at(const Outputs& outputs, std::int32_t k, Vec inverse_scale, int
 
 // Returns the sums.
 int32x4_t write_quads(const Outputs& outputs, Vec inverse_scale, std::int8_t* y) {
-  const std::int32_t together = outputs.width == kPanel ? 4 : 8;
+  const std::int32_t together = outputs.together();
   int32x4_t sum = vdupq_n_s32(0);
   for (std::int32_t k = 0; k < outputs.reduction; k += together, y += 4 * kPanel) {
     auto* to = reinterpret_cast<std::int32_t*>(y);
@@ -65,9 +67,8 @@ void quantize_to_int8(const QuantizeToInt8Args& a) {
                           reduction};
     const Vec scales = scales_of(outputs);
     const Vec inverse = only(vcgtq_f32(scales, splat(0.0f)), divide(splat(1.0f), scales));
-    const std::int32_t together = width == kPanel ? 4 : 8;
     const int32x4_t sums = write_quads(
-        outputs, inverse, a.quads + std::ptrdiff_t{first} * reduction + lane * together);
+        outputs, inverse, a.quads + std::ptrdiff_t{first} * reduction + lane * outputs.together());
     store(a.scales + channel, scales);
     store(a.sums + channel, vcvtq_f32_s32(sums));
   }

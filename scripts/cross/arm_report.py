@@ -53,11 +53,12 @@ def predictions(folder_of):
     return rows
 
 
-def predictions_and_measurements(folder, conformance):
-    """Rows of kernels of this machine's CPU: predicted, and measured of the peak that it reaches."""
+def prediction_error(folder, conformance):
+    """A sentence about kernels of this machine's CPU: what is predicted, and what they reach of its peak."""
     measured = {row["name"]: row for row in json.loads(output_of(conformance, "--tier", "avx2", "--bench", "--json", "-"))["results"]}
-    return [[f"`{kernel}`, avx2", f"{predict.share_of_limit(loop_of(folder, name, pattern, 'objdump'), predict.HOST):.0%}",
-             f"{measured[kernel]['peak_share']:.0%}"] for kernel, name, pattern in X86_LOOPS]
+    shares = [f"`{kernel}` {predict.share_of_limit(loop_of(folder, name, pattern, 'objdump'), predict.HOST):.0%} ({measured[kernel]['peak_share']:.0%})"
+              for kernel, name, pattern in X86_LOOPS]
+    return f"On x86, llvm-mca predicts for {', '.join(shares)}; in parentheses, what the whole kernel reaches."
 
 
 def largest_difference(rows, others):
@@ -125,7 +126,7 @@ def main():
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
     x64 = work / "report-x64"
-    checked = predictions_and_measurements(x64 / "kernels/CMakeFiles/mien_kernels_avx2.dir", x64 / "apps/conformance/mien-conformance")
+    error = prediction_error(x64 / "kernels/CMakeFiles/mien_kernels_avx2.dir", x64 / "apps/conformance/mien-conformance")
     rows, macs = instructions((neon, neonfp16, neondot, avx2), work)
     text = f"""# Predicted speed on ARM
 
@@ -138,9 +139,8 @@ most 82 %, because clamps use the same units. The models of A76 and X1 are those
 arithmetic. Code of gcc; that of clang differs by at most {difference} points.
 
 {table(header, by_gcc)}
-The same for kernels of x86, and the share of the peak that they reach on that CPU, with all that surrounds the loop:
+{error}
 
-{table(["kernel", "predicted", "measured"], checked)}
 ## Instructions per multiply-accumulate
 
 One run of a network, counted by qemu-user; in parentheses relative to AVX2, whose vectors have twice the width of NEON's.
