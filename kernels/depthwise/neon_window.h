@@ -97,33 +97,63 @@ template <class T>
   return at;
 }
 
-// Adds each input to the sums of all outputs whose windows contain it.
+// A tile of outputs and the inputs of their windows.
+template <int kRows, int kColumns, int kStride, int kXPixel>
+struct TileShape {
+  static constexpr int kOutputs = kRows * kColumns, kOutputColumns = kColumns;
+  static constexpr int kStep = kStride, kPixel = kXPixel;
+  static constexpr int kHeight = (kRows - 1) * kStride + 3, kWidth = (kColumns - 1) * kStride + 3;
+};
+
+template <class N>
+struct Pixel {
+  typename N::Vec vecs[N::kVecs];
+  [[gnu::always_inline]] explicit Pixel(const typename N::Value* x) {
+    MIEN_UNROLLED for (int v = 0; v < N::kVecs; ++v) { vecs[v] = N::load(x + v * N::kLanes); }
+  }
+};
+
+// Adds inputs kInput and the following to the sums of all outputs whose windows contain them. `row`
+// is the row of `input`. The next input is loaded first, because CPUs that execute in order wait
+// for a load before its use.
+template <class N, class Shape, int kInput = 0>
+[[gnu::always_inline]] inline void add_inputs(const Window<N>& window, const typename N::Value* row,
+                                              std::ptrdiff_t x_row, const Pixel<N>& input,
+                                              typename N::Vec (&sums)[Shape::kOutputs][N::kVecs]) {
+  constexpr int kY = kInput / Shape::kWidth, kX = kInput % Shape::kWidth;
+  const auto add = [&] {
+    MIEN_UNROLLED for (int output = 0; output < Shape::kOutputs; ++output) {
+      const int ky = kY - output / Shape::kOutputColumns * Shape::kStep;
+      const int kx = kX - output % Shape::kOutputColumns * Shape::kStep;
+      if (ky >= 0 && ky < 3 && kx >= 0 && kx < 3) {
+        MIEN_UNROLLED for (int v = 0; v < N::kVecs; ++v) {
+          sums[output][v] = N::fma(sums[output][v], input.vecs[v], window.w[3 * ky + kx][v]);
+        }
+      }
+    }
+  };
+  if constexpr (kInput + 1 == Shape::kHeight * Shape::kWidth) {
+    add();
+  } else {
+    if constexpr (kX + 1 == Shape::kWidth) {
+      row = opaque(row + x_row);
+    }
+    const Pixel<N> next(row + (kX + 1) % Shape::kWidth * Shape::kPixel);
+    add();
+    add_inputs<N, Shape, kInput + 1>(window, row, x_row, next, sums);
+  }
+}
+
 template <class N, int kRows, int kColumns, int kStride, int kXPixel, int kYPixel>
 [[gnu::always_inline]] inline void tile(const Window<N>& window, const typename N::Value* x,
                                         std::ptrdiff_t x_row, typename N::Finish::Output* y,
                                         std::ptrdiff_t y_row) {
-  constexpr int kVecs = N::kVecs;
-  typename N::Vec sums[kRows * kColumns][kVecs];
-  MIEN_UNROLLED for (int i = 0; i < kRows * kColumns * kVecs; ++i) {
-    sums[i / kVecs][i % kVecs] = N::load(window.biases + i * N::kLanes);
+  using Shape = TileShape<kRows, kColumns, kStride, kXPixel>;
+  typename N::Vec sums[Shape::kOutputs][N::kVecs];
+  MIEN_UNROLLED for (int i = 0; i < Shape::kOutputs * N::kVecs; ++i) {
+    sums[i / N::kVecs][i % N::kVecs] = N::load(window.biases + i * N::kLanes);
   }
-  MIEN_UNROLLED for (int i = 0; i < (kRows - 1) * kStride + 3; ++i) {
-    const typename N::Value* row = opaque(x + i * x_row);
-    MIEN_UNROLLED for (int j = 0; j < (kColumns - 1) * kStride + 3; ++j) {
-      typename N::Vec input[kVecs];
-      MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-        input[v] = N::load(row + j * kXPixel + v * N::kLanes);
-      }
-      MIEN_UNROLLED for (int output = 0; output < kRows * kColumns; ++output) {
-        const int ky = i - output / kColumns * kStride, kx = j - output % kColumns * kStride;
-        if (ky >= 0 && ky < 3 && kx >= 0 && kx < 3) {
-          MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-            sums[output][v] = N::fma(sums[output][v], input[v], window.w[3 * ky + kx][v]);
-          }
-        }
-      }
-    }
-  }
+  add_inputs<N, Shape>(window, opaque(x), x_row, Pixel<N>(x), sums);
   MIEN_UNROLLED for (int i = 0; i < kRows; ++i) {
     typename N::Finish::Output* row = opaque(y + i * y_row);
     MIEN_UNROLLED for (int j = 0; j < kColumns; ++j) {
