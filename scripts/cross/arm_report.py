@@ -134,9 +134,8 @@ For developers of kernels. No ARM machine was available: `scripts/cross/arm_repo
 
 ## Inner loops
 
-Predictions of llvm-mca ({version(predict.PROGRAM)}): the cycles that the multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
-most 82 %, because clamps use the same units. The models of A76 and X1 are those of Neoverse N1 and V1. {WITHOUT_FP16} has no fp16
-arithmetic. Code of gcc; that of clang differs by at most {difference} points.
+Predictions of llvm-mca ({version(predict.PROGRAM)}): the cycles that the multiply-adds of a loop need at least, as a share of the cycles that it takes. The
+models of A76 and X1 are those of Neoverse N1 and V1. {WITHOUT_FP16} has no fp16 arithmetic. Code of gcc; that of clang differs by at most {difference} points.
 
 {table(header, by_gcc)}
 {error}

@@ -38,7 +38,7 @@ by_clang() {  # tier, its flags and sources
   done
 }
 by_clang neon "-DMIEN_HAVE_NEON" pointwise/neon_product inverted_residual/neon lstm/neon
-by_clang neonfp16 "-DMIEN_HAVE_NEONFP16 -DMIEN_HALF_TIER -march=armv8.2-a+fp16" \
+by_clang neonfp16 "-DMIEN_HAVE_NEON -DMIEN_HAVE_NEONFP16 -DMIEN_HALF_TIER -march=armv8.2-a+fp16" \
   inverted_residual/neonfp16_product inverted_residual/neonfp16 lstm/neon
 by_clang neondot "-march=armv8.2-a+fp16+dotprod" inverted_residual/neondot_product
 PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=apps/convert python3 scripts/cross/arm_report.py "$work" "$out"
