@@ -116,7 +116,7 @@ run_manylinux_arm64() {
 
 run_musllinux_x64() {
   [ "$(uname -m)" = x86_64 ] || return 0
-  run_program musllinux-x64 /lib/ld-musl-x86_64.so.1 "$work/musllinux-x64.installed/mien/mien"
+  run_program musllinux-x64 "$work/musllinux-x64.installed/mien/mien"
   ran="its program and library ran with musl, but in no Python"
 }
 
