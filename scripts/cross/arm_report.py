@@ -54,7 +54,7 @@ def predictions(folder_of):
 
 
 def prediction_error(folder, conformance):
-    """A sentence about kernels of this machine's CPU: what is predicted, and what they reach of its peak."""
+    """A sentence about kernels of this machine's CPU: predictions, and the shares of its peak that they reach."""
     measured = {row["name"]: row for row in json.loads(output_of(conformance, "--tier", "avx2", "--bench", "--json", "-"))["results"]}
     shares = [f"`{kernel}` {predict.share_of_limit(loop_of(folder, name, pattern, 'objdump'), predict.HOST):.0%} ({measured[kernel]['peak_share']:.0%})"
               for kernel, name, pattern in X86_LOOPS]

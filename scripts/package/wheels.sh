@@ -63,7 +63,7 @@ check_wheel() {  # target, wheel, folder of the package
     [ -z "$foreign" ] || { echo "wheels.sh: $file: DLLs that Windows does not have (got $foreign)" >&2; return 1; }
   done
   [[ $1 != manylinux-* ]] || audit "$1" "$2"
-  # musl's loader takes libc.so for itself under any distribution's name, but auditwheel knows only Alpine's.
+  # musl's loader takes libc.so for itself under any distribution's name, but this check knows only Alpine's.
   [[ $1 != musllinux-* ]] || audit "$1" "$2" --ldpaths "$3"
 }
 
