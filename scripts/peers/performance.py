@@ -66,7 +66,7 @@ def to_text(figures):
     lines = ["# Speed", "", "For developers of kernels, and for users who plan a budget.", "",
              f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds "
              "interleaved with [other engines](peers.md) on one machine, by "
-             "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` computes the encoders' "
+             "`scripts/peers/bench.sh`. `avx512fp16` computes the encoders' "
              "blocks [with 16 bits](../architecture.md#half-precision). The peak is that of a loop of fused "
              "multiply-adds in registers.", "",
              "## Networks", "", "[performance.json](performance.json) has all networks; "
