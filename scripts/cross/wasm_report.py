@@ -63,7 +63,7 @@ def page(report):
         f"goal {LIMIT:g} at most: {verdict(report['ratio'] <= LIMIT)}.",
         f"* The module with the whole tracker: {report['module_bytes']} bytes, {report['module_gzip_bytes']} after gzip; goal {MODULE_LIMIT} at most: "
         f"{verdict(report['module_bytes'] <= MODULE_LIMIT)}.",
-        "* Fused multiply-adds of relaxed SIMD, in V8 14.6: 0.94 to 1.03 times as long with fixed point, 1.17 to 1.20 in fp32: no module uses them.", ""])
+        "* Relaxed SIMD's fused multiply-adds, in V8 14.6: 0.94 to 1.03 times as long with fixed point, 1.17 to 1.20 in fp32: no module uses them.", ""])
 
 
 if __name__ == "__main__":
