@@ -21,15 +21,16 @@ template <int kVecs>
 constexpr int kTilePixels = kVecs == 4 ? 2 : 4;
 #endif
 
-// Loads the weights of one input: kVecs vectors.
-template <int kVecs>
-[[gnu::always_inline]] inline void load_row(const float* at, Vec (&row)[kVecs]) {
-  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { row[v] = vld1q_f32(at + v * kLanes); }
+[[gnu::always_inline]] inline Pair load_weights(const float* at) { return load_pair(at); }
+[[gnu::always_inline]] inline Pair load_weights(const std::uint16_t* at) {
+  return load_half_pair(at);
 }
-template <int kVecs>
-[[gnu::always_inline]] inline void load_row(const std::uint16_t* at, Vec (&row)[kVecs]) {
+
+// Loads the weights of one input: kVecs vectors.
+template <int kVecs, class T>
+[[gnu::always_inline]] inline void load_row(const T* at, Vec (&row)[kVecs]) {
   MIEN_UNROLLED for (int v = 0; v < kVecs; v += 2) {
-    const Pair pair = load_half_pair(at + v * kLanes);
+    const Pair pair = load_weights(at + v * kLanes);
     row[v] = pair.low;
     row[v + 1] = pair.high;
   }
@@ -68,11 +69,6 @@ inline Widened widen(const Halves& weights, std::ptrdiff_t rows, float* space) {
   return {space};
 }
 
-[[gnu::always_inline]] inline Pair load_weights(const float* at) { return load_pair(at); }
-[[gnu::always_inline]] inline Pair load_weights(const std::uint16_t* at) {
-  return load_half_pair(at);
-}
-
 // Adds the products of 4 inputs from pair kPair of their weights on, which `pair` has; the sums
 // have kParts parts, each of every kParts-th input. The next pair is loaded first, because CPUs
 // that execute in order wait for a load before its use.
@@ -82,19 +78,19 @@ template <int kPair, int kParts, int kPixels, int kVecs, class T>
                                                  Vec (&sums)[kParts][kPixels][kVecs]) {
   constexpr int kPairs = kVecs / 2, kLane = kPair / kPairs, kFirst = 2 * (kPair % kPairs);
   constexpr int kNext = kPair + 1;
-  Pair next = pair;
-  if constexpr (kNext < kLanes * kPairs) {
-    next = load_weights(w + kNext / kPairs * row_elems + 2 * kLanes * (kNext % kPairs));
-  }
-  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
-    Vec(&sum)[kVecs] = sums[kLane % kParts][p];
-    sum[kFirst] = fma_lane<kLane>(sum[kFirst], pair.low, x[p]);
-  }
-  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
-    Vec(&sum)[kVecs] = sums[kLane % kParts][p];
-    sum[kFirst + 1] = fma_lane<kLane>(sum[kFirst + 1], pair.high, x[p]);
-  }
-  if constexpr (kNext < kLanes * kPairs) {
+  const auto add = [&](Vec weights, int v) {
+    MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
+      Vec& sum = sums[kLane % kParts][p][v];
+      sum = fma_lane<kLane>(sum, weights, x[p]);
+    }
+  };
+  if constexpr (kNext == kLanes * kPairs) {
+    add(pair.low, kFirst);
+    add(pair.high, kFirst + 1);
+  } else {
+    const Pair next = load_weights(w + kNext / kPairs * row_elems + 2 * kLanes * (kNext % kPairs));
+    add(pair.low, kFirst);
+    add(pair.high, kFirst + 1);
     add_from_pair<kNext>(w, row_elems, next, x, sums);
   }
 }

@@ -31,7 +31,7 @@ struct Job {
 template <int kVecs>
 struct Row {
   HalfVec vecs[kVecs];
-  explicit Row(const Half* w) {
+  [[gnu::always_inline]] explicit Row(const Half* w) {
     MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { vecs[v] = load_halves(w + v * kHalves); }
   }
 };

@@ -58,7 +58,7 @@ def prediction_error(folder, conformance):
     measured = {row["name"]: row for row in json.loads(output_of(conformance, "--tier", "avx2", "--bench", "--json", "-"))["results"]}
     shares = [f"`{kernel}` {predict.share_of_limit(loop_of(folder, name, pattern, 'objdump'), predict.HOST):.0%} ({measured[kernel]['peak_share']:.0%})"
               for kernel, name, pattern in X86_LOOPS]
-    return f"On x86, llvm-mca predicts for {', '.join(shares)}; measured of whole kernels in parentheses."
+    return f"On x86, llvm-mca predicts for {', '.join(shares)}; in parentheses, measurements of whole kernels."
 
 
 def largest_difference(rows, others):

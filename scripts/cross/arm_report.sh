@@ -9,15 +9,16 @@ work=$PWD/build/cross
 scripts/setup.sh build cross-arm
 
 . scripts/ccache.sh
-build_target() {  # folder, target beside the library, options of cmake
-  local folder=$work/$1 target=$2
-  shift 2
+build_library() {  # folder, options of cmake
+  local folder=$work/$1
+  shift
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF \
-    -DMIEN_BUILD_TESTS=OFF "$@" >/dev/null
-  cmake --build "$folder" --target mien_static "$target" >/dev/null
+    -DMIEN_BUILD_TESTS=OFF -DMIEN_BUILD_CONFORMANCE=OFF "$@" >/dev/null
+  cmake --build "$folder" --target mien_static >/dev/null
 }
-build_target report-arm64 mien_static -DMIEN_BUILD_CONFORMANCE=OFF --toolchain "$PWD/scripts/cross/linux-arm64.cmake"
-build_target report-x64 mien_conformance_program
+build_library report-arm64 --toolchain "$PWD/scripts/cross/linux-arm64.cmake"
+build_library report-x64 -DMIEN_BUILD_CONFORMANCE=ON
+cmake --build "$work/report-x64" --target mien_conformance_program >/dev/null
 
 program=scripts/cross/run_network.cpp
 options="-std=c++20 -O2 -static -Iinclude"

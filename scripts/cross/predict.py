@@ -8,12 +8,12 @@ import inner_loops
 CPUS = {"Cortex-A53": "cortex-a53", "Cortex-A55": "cortex-a55", "Cortex-A76": "neoverse-n1", "Cortex-X1": "neoverse-v1"}
 ITERATIONS = 200
 PROGRAM = "llvm-mca-19"
-HOST = "the CPU of this machine"
+HOST = "native"  # the CPU of this machine
 
 
 def _report(loop, cpu):
-    machine = ["-mcpu=native"] if cpu == HOST else ["-mtriple=aarch64", f"-mcpu={cpu}", "-mattr=+fullfp16,+dotprod"]
-    out = subprocess.run([PROGRAM, *machine, f"-iterations={ITERATIONS}"], input=inner_loops.assembly(loop), check=True,
+    arm = [] if cpu == HOST else ["-mtriple=aarch64", "-mattr=+fullfp16,+dotprod"]
+    out = subprocess.run([PROGRAM, *arm, f"-mcpu={cpu}", f"-iterations={ITERATIONS}"], input=inner_loops.assembly(loop), check=True,
                          capture_output=True, text=True).stdout
     cycles = int(re.search(r"Total Cycles:\s+(\d+)", out).group(1)) / ITERATIONS
     return cycles, float(re.search(r"Block RThroughput:\s+([\d.]+)", out).group(1))

@@ -61,7 +61,7 @@ def program_bytes(path):
 def embedded_bytes(target, triple, options):
     build = ROOT / "build/sizes" / target / "embedded"  # one for all rows, because options change few objects
     by_zig = ["--toolchain", str(ROOT / "scripts/cross/zig.cmake"), f"-DMIEN_ZIG_TARGET={triple}",
-              "-DCMAKE_C_STANDARD_LIBRARIES=-lc++"]  # CMake finds it for Linux only
+              "-DCMAKE_C_STANDARD_LIBRARIES=-lc++"]  # the C++ library, which CMake finds for Linux only
     toolchain = ["-DCMAKE_EXE_LINKER_FLAGS=-s"] if target == "gcc" else by_zig
     switches = {option: option in options for option in (*ALL, "MIEN_TRIM_REF")} | {"MIEN_TRIM_LAYERS": options != ALL}
     run("cmake", "-S", "tests/package/embedded", "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", f"-DMIEN_SOURCE={ROOT}",

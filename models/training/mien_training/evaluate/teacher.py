@@ -22,8 +22,8 @@ def compare_controls(ours, theirs, weight=None):
     All controls of the teacher; those that mien does not drive have no correlation.
     """
     known = np.flatnonzero(np.isfinite(theirs).all(0))
-    weight = np.ones_like(theirs) if weight is None else weight
-    ours, theirs, weight = ours[:, known], theirs[:, known], weight[:, known]
+    ours, theirs = ours[:, known], theirs[:, known]
+    weight = None if weight is None else weight[:, known]
     driven = np.isfinite(ours).all(0)
     correlation = np.where(driven, metrics.correlations(np.nan_to_num(ours), theirs, weight), np.nan)
     error, constant = metrics.linear_map_error(np.nan_to_num(ours), theirs)
