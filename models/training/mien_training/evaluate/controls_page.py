@@ -1,4 +1,7 @@
-"""docs/results/controls.md: the figures of each control from all parts."""
+"""docs/results/controls.md and controls.png: the figures of each control from all parts."""
+import matplotlib.pyplot as plt
+import numpy as np
+
 from mien_training.data.expressions import CONTROLS
 from mien_training.evaluate import report as out
 from mien_training.evaluate.teacher import MOVES
@@ -24,6 +27,7 @@ COLUMNS = (
     ("rendered", lambda results, level, c: find(results, "synthetic", level, "program", "correlation", c)),
     ("clips", lambda results, level, c: agreement(find(results, "clips", level, "controls"), c)),
 )
+TITLES = {"rendered": "Correlation with the truth, rendered people", "clips": "Correlation with MediaPipe, clips"}
 
 
 def supported(results, level):
@@ -33,6 +37,33 @@ def supported(results, level):
 def sides(control):
     """The control, and that of the right side if this is the left one."""
     return (control, control.removesuffix("Left") + "Right") if control.endswith("Left") else (control,)
+
+
+def title_of(control):
+    return control + "/Right" if control.endswith("Left") else control
+
+
+def listed(known):
+    """The supported controls, without the right ones of pairs; `known` has those of each level."""
+    return [c for c in CONTROLS if not c.endswith("Right") and any(c in names for names in known.values())]
+
+
+def plot(results, path):
+    """Correlations of every control, the mean of both sides, as an image."""
+    known = {level: supported(results, level) for level in LEVELS}
+    controls = listed(known)
+    figure, panels = plt.subplots(1, len(COLUMNS), figsize=(10, 6), sharey=True)
+    for axes, (title, of) in zip(panels, COLUMNS):
+        for level, fill in zip(LEVELS, ("white", "tab:blue")):
+            sided = [[of(results, level, side) for side in sides(c) if c in known[level]] for c in controls]
+            means = [np.mean(values) if values and None not in values else np.nan for values in sided]
+            axes.scatter(means, range(len(controls)), 22, fill, edgecolors="tab:blue", label=out.level(level))
+        axes.set(title=TITLES[title], xlim=(-0.05, 1), yticks=range(len(controls)), yticklabels=map(title_of, controls))
+        axes.grid(alpha=0.3)
+    panels[0].invert_yaxis()
+    panels[0].tick_params(axis="y", labelsize=7)
+    panels[0].legend(loc="upper left")
+    out.save(figure, path)
 
 
 def page(results):
@@ -45,8 +76,6 @@ def page(results):
         [response.json](response.json) has ranges, [amplitude.json](amplitude.json) deviations.""")
     one = lambda figure, level, c: out.number(figure(results, level, c), 2) if c in known[level] else "-"
     cell = lambda figure, level, c: ", ".join(dict.fromkeys(one(figure, level, side) for side in sides(c)))
-    rows = [["/".join((c, *("Right" for _ in sides(c)[1:]))), *(cell(figure, level, c) for _, figure in COLUMNS
-            for level in LEVELS)] for c in CONTROLS
-            if not c.endswith("Right") and any(c in names for names in known.values())]
+    rows = [[title_of(c), *(cell(figure, level, c) for _, figure in COLUMNS for level in LEVELS)] for c in listed(known)]
     header = ["control", *(f"{title}, {out.level(level)}" for title, _ in COLUMNS for level in LEVELS)]
     return "\n".join([*lines, *out.table(header, rows)])

@@ -12,7 +12,7 @@ import numpy as np
 
 def table(header, rows):
     """Lines of a Markdown table; cells are text."""
-    line = lambda cells: "| " + " | ".join(cells) + " |"
+    line = lambda cells: f"|{'|'.join(cells)}|"
     return [line(header), "|---" * len(header) + "|", *(line(row) for row in rows), ""]
 
 

@@ -77,7 +77,7 @@ def in_short(results):
 def page(results, skipped, has_hifinet):
     lines = ["# Results", "",
              "For users who judge whether mien is good enough for them, and for developers who change it.", "",
-             *in_short(results)]
+             "![Correlations of every control](controls.png)", "", *in_short(results)]
     lines += out.prose(
         """Most goals are those of the published method or MediaPipe's own quality; two bounds are for level 1 and level
         4. Bold figures miss their goal; a dash: not measured or without a goal. Pages that name no command are made by
@@ -103,5 +103,6 @@ def write(folder, skipped, has_hifinet):
                if (folder / f"{part}.json").exists()}
     if (folder / "peers.json").exists():
         results["peers"] = json.loads((folder / "peers.json").read_text())
+    controls_page.plot(results, folder / "controls.png")
     (folder / "controls.md").write_text(controls_page.page(results))
     (folder / "README.md").write_text(page(results, skipped, has_hifinet))
