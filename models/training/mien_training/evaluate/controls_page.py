@@ -76,6 +76,7 @@ def page(results):
         [response.json](response.json) has ranges, [amplitude.json](amplitude.json) deviations.""")
     one = lambda figure, level, c: out.number(figure(results, level, c), 2) if c in known[level] else "-"
     cell = lambda figure, level, c: ", ".join(dict.fromkeys(one(figure, level, side) for side in sides(c)))
-    rows = [[title_of(c), *(cell(figure, level, c) for _, figure in COLUMNS for level in LEVELS)] for c in listed(known)]
+    rows = [[title_of(c), *(cell(figure, level, c) for _, figure in COLUMNS for level in LEVELS)]
+            for c in listed(known)]
     header = ["control", *(f"{title}, {out.level(level)}" for title, _ in COLUMNS for level in LEVELS)]
     return "\n".join([*lines, *out.table(header, rows)])
