@@ -354,6 +354,7 @@ class Live(unittest.TestCase):
         until(r"level       1, mirrored")
         os.write(master, b"c")
         until(r"calibrating: look neutral")
+        until(r"tracking    \d+\.\d ms per frame: detection \d+\.\d, face \d+\.\d, audio \d+\.\d")
         os.write(master, b"q")
         until(r"(?s)\x1b\[\?1049l.*\d+ frames in")
         self.assertEqual(live.wait(timeout=60), 0)

@@ -1,6 +1,7 @@
 // Tests of the program: exit codes, one line on stderr, no incomplete files.
 #include "tests/apps/program.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -179,6 +180,18 @@ TEST_F(Program, TracksTheDemoClip) {
   EXPECT_NE(contents(path("stats.json")).find("\"frames\": 60"), std::string::npos);
   EXPECT_NE(contents(path("stats.json")).find("\"tracker_bytes\": "), std::string::npos);
   EXPECT_NE(contents(path("stats.json")).find("\"total_ms\": "), std::string::npos);
+}
+
+TEST_F(Program, TheSummaryNamesTimesInUsersWords) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  const Outcome done = run("track " + kClip + " --duration 1 -o " + path("out.csv") + models());
+  ASSERT_EQ(done.code, 0) << done.errors;
+  const std::size_t end = done.errors.find("30 frames, ");
+  ASSERT_NE(end, std::string::npos) << done.errors;
+  EXPECT_THAT(done.errors.substr(end),
+              testing::MatchesRegex("30 frames, .*\n[0-9.]+ ms per frame: detection [0-9.]+, face "
+                                    "[0-9.]+, audio [0-9.]+; 95 % within [0-9.]+ ms\n"));
 }
 
 TEST_F(Program, TracksSeveralFacesWithIds) {

@@ -9,6 +9,7 @@
 
 #include "apps/animation/numbers.h"
 #include "apps/mien/system/printable.h"
+#include "apps/mien/tracking/part_times.h"
 
 namespace mien::app {
 namespace {
@@ -49,17 +50,6 @@ std::string line(const std::string& text) { return text.substr(0, kColumns) + "\
 
 std::string labelled(std::string_view label, const std::string& text) {
   return line(padded(label, kLabelColumns) + text);
-}
-
-std::string times(const LiveStatistics& statistics) {
-  double whole = 0.0;
-  std::string text;
-  for (int stage = 0; stage < MIEN_STAGE_COUNT; ++stage) {
-    whole += statistics.stage_ms(stage);
-    text.append(" ").append(mien_stage_name(stage)).append(" ");
-    text.append(animation::fixed(statistics.stage_ms(stage), 1));
-  }
-  return animation::fixed(whole, 1) + " ms:" + text;
 }
 
 std::string face_line(const animation::Frame& frame) {
@@ -114,7 +104,7 @@ std::string screen_text(const ScreenState& state, const LiveStatistics& statisti
                                  " images, " + std::to_string(state.dropped_packets) + " packets");
   text += labelled("level", std::to_string(state.level) + (state.automatic ? " (automatic)" : "") +
                                 (state.mirrored ? ", mirrored" : ""));
-  text += labelled("frame", times(statistics));
+  text += labelled("tracking", part_times(statistics.stage_ms(), 1));
   text += labelled("latency", animation::fixed(statistics.latency().quantile(0.5), 1) +
                                   " ms from image to packet, 99 % within " +
                                   animation::fixed(statistics.latency().quantile(0.99), 1) + " ms");

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/mien/tracking/part_times.h"
+
 namespace mien::app {
 
 // A histogram of times in steps of 0.1 ms up to 1 s.
@@ -28,9 +30,7 @@ class LiveStatistics {
   void frame(const Result& result, std::int64_t now_ns, std::int64_t latency_ns);
 
   [[nodiscard]] double frames_per_second() const { return fps_; }
-  [[nodiscard]] double stage_ms(int stage) const {
-    return stage_ms_[static_cast<std::size_t>(stage)];
-  }
+  [[nodiscard]] const StageMs& stage_ms() const { return stage_ms_; }
   [[nodiscard]] const Histogram& latency() const { return latency_; }
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   [[nodiscard]] std::uint64_t face_frames() const { return face_frames_; }
@@ -39,7 +39,7 @@ class LiveStatistics {
   std::uint64_t frames_ = 0, face_frames_ = 0;
   std::int64_t last_ns_ = 0;
   double fps_ = 0.0;  // as the next member, an average over about a second
-  std::array<double, MIEN_STAGE_COUNT> stage_ms_{};
+  StageMs stage_ms_{};
   Histogram latency_;
 };
 

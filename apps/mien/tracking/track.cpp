@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <map>
 #include <mien/mien.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +25,7 @@
 #include "apps/mien/tracking/backward_fill.h"
 #include "apps/mien/tracking/frames.h"
 #include "apps/mien/tracking/loaded_tracker.h"
+#include "apps/mien/tracking/part_times.h"
 #include "apps/mien/tracking/stage_times.h"
 
 namespace mien::app {
@@ -80,10 +84,14 @@ void print_summary(const Result& last, std::uint64_t filled, const StageTimes& t
                static_cast<unsigned long long>(last.frames),
                static_cast<unsigned long long>(last.face_frames) + filled,
                static_cast<unsigned long long>(last.proposal_runs));
-  for (const auto& [stage, time] : times.summary()) {
-    std::fprintf(stderr, "  %-9s median %.3f ms, p95 %.3f ms\n", stage.c_str(), time.median_ms,
-                 time.p95_ms);
+  std::map<std::string, StageTime> summary = times.summary();
+  StageMs mean{};
+  for (std::size_t stage = 0; stage < mean.size(); ++stage) {
+    mean[stage] = summary[mien_stage_name(static_cast<std::int32_t>(stage))].total_ms /
+                  static_cast<double>(std::max<std::uint64_t>(last.frames, 1));
   }
+  std::fprintf(stderr, "%s; 95 %% within %.3f ms\n", part_times(mean, 3).c_str(),
+               summary["frame"].p95_ms);
 }
 
 LoadedTracker::Options tracker_options_of(const TrackOptions& options, const InputTracks& tracks) {
