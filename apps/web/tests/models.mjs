@@ -77,17 +77,27 @@ export const ktx2Model = () => packedModel('KHR_texture_basisu', Buffer.from(
   json.meshes[0].primitives[0].material = 0;
 });
 
-// VRM 1.0 whose presets `aa` and `blinkLeft` each move a target.
-const vrm = (bones = {}) => ({
-  extensionsUsed: ['VRMC_vrm'],
-  extensions: {VRMC_vrm: {
+// VRM whose presets `aa` and `blinkLeft` each move a target, and other expressions by `names` the further ones.
+const trunk = ['hips', 'spine', 'leftUpperLeg', 'leftLowerLeg', 'leftFoot', 'rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'leftUpperArm',
+               'leftLowerArm', 'leftHand', 'rightUpperArm', 'rightLowerArm', 'rightHand'];
+const bonesOf = bones => Object.entries({...Object.fromEntries(trunk.map(name => [name, 0])), head: 1, ...bones});
+const vrm1 = (names, bones) => {
+  const bind = index => ({morphTargetBinds: [{node: 4, index, weight: 1}]});
+  return {extensionsUsed: ['VRMC_vrm'], extensions: {VRMC_vrm: {
     specVersion: '1.0',
     meta: {name: 'test', version: '1', authors: ['mien'], licenseUrl: 'https://vrm.dev/licenses/1.0/'},
-    humanoid: {humanBones: Object.fromEntries([
-      'hips', 'spine', 'leftUpperLeg', 'leftLowerLeg', 'leftFoot', 'rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'leftUpperArm',
-      'leftLowerArm', 'leftHand', 'rightUpperArm', 'rightLowerArm', 'rightHand'].map(name => [name, {node: 0}]).concat([['head', {node: 1}]], Object.entries(bones).map(([name, node]) => [name, {node}])))},
-    expressions: {preset: {
-      aa: {morphTargetBinds: [{node: 4, index: 0, weight: 1}]}, blinkLeft: {morphTargetBinds: [{node: 4, index: 1, weight: 1}]}}},
-  }}});
-export const vrmModel = () => headModel(['open', 'shut'], vrm());
-export const vrmBodyModel = () => headModel(['open', 'shut'], vrm({leftUpperArm: 5, leftLowerArm: 6, rightUpperArm: 7, rightLowerArm: 8}), body);
+    humanoid: {humanBones: Object.fromEntries(bonesOf(bones).map(([name, node]) => [name, {node}]))},
+    expressions: {preset: {aa: bind(0), blinkLeft: bind(1)}, custom: Object.fromEntries(names.map((name, i) => [name, bind(2 + i)]))}}}};
+};
+const vrm0 = (names, bones) => {
+  const group = (name, presetName, index) => ({name, presetName, binds: [{mesh: 0, index, weight: 100}]});
+  return {extensionsUsed: ['VRM'], extensions: {VRM: {
+    specVersion: '0.0', meta: {title: 'test', version: '1', author: 'mien', licenseName: 'CC0'},
+    humanoid: {humanBones: bonesOf(bones).map(([bone, node]) => ({bone, node}))},
+    blendShapeMaster: {blendShapeGroups: [group('A', 'a', 0), group('Blink_L', 'blink_l', 1), ...names.map((name, i) => group(name, 'unknown', 2 + i))]}}}};
+};
+export const vrmModel = (version, names = [], bones = {}, more = {}) =>
+  headModel(['open', 'shut', ...names], {0: vrm0, 1: vrm1}[version](names, bones), more);
+// The left is on the other side where the model looks along -z.
+export const vrmBodyModel = version => vrmModel(version, [], version === 1 ?
+  {leftUpperArm: 5, leftLowerArm: 6, rightUpperArm: 7, rightLowerArm: 8} : {leftUpperArm: 7, leftLowerArm: 8, rightUpperArm: 5, rightLowerArm: 6}, body);

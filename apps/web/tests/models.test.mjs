@@ -54,22 +54,28 @@ async function moved(bytes, name, face) {
   assert.equal(await page.textContent('#error p'), '');
   const result = await page.evaluate(controls => {
     const {avatar} = window.page.first;
-    avatar.draw({controls, yaw: 0.3});
+    avatar.draw({controls, pitch: 0.2, yaw: 0.3});
     let weights;
     avatar.root.traverse(node => { weights ??= node.morphTargetInfluences; });
     const {geometry, material} = avatar.root.getObjectByName('face'), {mipmaps} = material.map ?? {};
-    return {weights: [...weights], positions: [...geometry.attributes.position.array], pixels: mipmaps && mipmaps[0].data.length, status: document.getElementById('status').textContent, head: avatar.headBone.node.quaternion.toArray()};
+    const {node} = avatar.headBone, ahead = avatar.vrm?.meta.metaVersion === '0' ? -1 : 1;
+    const looks = node.position.clone().set(0, 0, ahead).applyQuaternion(node.getWorldQuaternion(node.quaternion.clone()));
+    return {weights: [...weights], positions: [...geometry.attributes.position.array], pixels: mipmaps && mipmaps[0].data.length,
+            status: document.getElementById('status').textContent, looks: looks.toArray()};
   }, controls(face));
   assert.deepEqual(complaints, []);
   await context.close();
   return result;
 }
 
+const turns = looks => [Math.sin(0.3) * Math.cos(0.2), -Math.sin(0.2), Math.cos(0.3) * Math.cos(0.2)].forEach(
+  (value, i) => assert.ok(Math.abs(looks[i] - value) < 1e-6, `the head looks along ${looks}`));
+
 test('a GLB with names of ARKit moves', async () => {
-  const {weights, status, head} = await moved(headModel(['jawOpen', 'mouthSmile_L', 'unknown']), 'arkit.glb', {jawOpen: 0.6, mouthSmileLeft: 0.25});
+  const {weights, status, looks} = await moved(headModel(['jawOpen', 'mouthSmile_L', 'unknown']), 'arkit.glb', {jawOpen: 0.6, mouthSmileLeft: 0.25});
   assert.deepEqual(weights, [0.6, 0.25, 0]);
   assert.match(status, /arkit\.glb: 2 names of ARKit/);
-  assert.ok(Math.abs(head[1] - Math.sin(0.15)) < 1e-6, 'the head turns by 0.3');
+  turns(looks);
 });
 
 test('a GLB with names of Roblox moves', async () => {
@@ -77,11 +83,14 @@ test('a GLB with names of Roblox moves', async () => {
   assert.deepEqual(weights, [0.5, 1, 0.2]);
 });
 
-test('the expressions of a VRM move it', async () => {
-  const {weights, status} = await moved(vrmModel(), 'person.vrm', {jawOpen: 0.5, eyeBlinkLeft: 1});
-  assert.deepEqual(weights, [0.5, 1]);
-  assert.match(status, /names of VRM/);
-});
+for (const version of [0, 1]) {
+  test(`the expressions of a VRM ${version} move it`, async () => {
+    const {weights, status, looks} = await moved(vrmModel(version), 'person.vrm', {jawOpen: 0.5, eyeBlinkLeft: 1});
+    assert.deepEqual(weights, [0.5, 1]);
+    assert.match(status, /names of VRM/);
+    turns(looks);
+  });
+}
 
 test('a head without known names is rejected with a message', async () => {
   const {page, context} = await openPage(studio);
@@ -139,11 +148,13 @@ test('a saved recording is an avatar whose head fills the view and whose eyes tu
   await context.close();
 });
 
-test('the head of a VRM with a body is framed, and arms are lowered', async () => {
-  const {context, complaints} = await openBody('body.vrm', vrmBodyModel());
-  assert.deepEqual(complaints, []);
-  await context.close();
-});
+for (const version of [0, 1]) {
+  test(`the head of a VRM ${version} with a body is framed, and arms are lowered`, async () => {
+    const {context, complaints} = await openBody('body.vrm', vrmBodyModel(version));
+    assert.deepEqual(complaints, []);
+    await context.close();
+  });
+}
 
 test('the head of a body is framed, arms are lowered, and the view turns, zooms and resets', async () => {
   const {page, context, complaints, view, camera} = await openBody('body.glb', bodyModel());
