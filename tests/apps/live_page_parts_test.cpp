@@ -230,6 +230,8 @@ TEST(Advice, SaysWhatToDo) {
             "/dev/video0: Permission denied; allow the camera: on Linux, add the user to the group "
             "video");
   EXPECT_EQ(advised(CaptureKind::kMicrophone, "x"), "x");
+  EXPECT_EQ(advised(CaptureKind::kCamera, "cannot run 'ffmpeg': Permission denied; install it"),
+            "cannot run 'ffmpeg': Permission denied; install it");
 }
 
 TEST(TcpListener, AnOccupiedPortIsAFailure) {

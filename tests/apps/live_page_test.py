@@ -222,7 +222,8 @@ class Control(Shared):
     def test_without_ffmpeg_the_program_says_what_to_do(self):
         done = subprocess.run(arguments("--camera", "/dev/video0", "--mic", "none"), capture_output=True, text=True, timeout=60, env={"PATH": "/nonexistent"})
         self.assertEqual(done.returncode, 6)
-        self.assertIn("install ffmpeg, which reads cameras", done.stderr)
+        self.assertEqual(done.stderr.splitlines()[-1], "mien: cannot run 'ffmpeg': not on PATH; install ffmpeg, for example with "
+                         "`apt install ffmpeg`, `brew install ffmpeg` or `winget install ffmpeg`")
 
     def test_a_port_can_be_chosen_and_is_free_again_after_the_program(self):
         with socket.socket() as probe:

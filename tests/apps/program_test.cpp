@@ -50,7 +50,11 @@ TEST_F(Program, RejectsInputsWithoutVideo) {
 
 TEST_F(Program, FfmpegMissing) {
   MIEN_NEEDS("trained model", have_models());
-  EXPECT_EQ(run("track " + kClip + models(), "PATH=/nowhere").code, 6);
+  const Outcome failed = run("track " + kClip + models(), "PATH=/nowhere");
+  EXPECT_EQ(failed.code, 6);
+  EXPECT_EQ(failed.errors,
+            "mien: cannot run 'ffprobe': not on PATH; install ffmpeg, for example with `apt "
+            "install ffmpeg`, `brew install ffmpeg` or `winget install ffmpeg`\n");
 }
 
 TEST_F(Program, RejectsUnknownLevelsOfDetail) {

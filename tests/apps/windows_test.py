@@ -193,7 +193,8 @@ class Windows(unittest.TestCase):
     def test_errors_are_named(self):
         no_ffmpeg = windows("track", CLIP, "--models", MODELS, path="/nowhere")
         self.assertEqual((no_ffmpeg.returncode, no_ffmpeg.stderr.decode().splitlines()),
-                         (6, ["mien: cannot run 'ffprobe': neither beside mien nor on PATH"]))
+                         (6, ["mien: cannot run 'ffprobe': neither beside mien nor on PATH; install ffmpeg, for example with "
+                              "`apt install ffmpeg`, `brew install ffmpeg` or `winget install ffmpeg`"]))
         (self.folder / "broken.mp4").write_bytes(b"no video")
         for arguments, code, words in [
                 (("track", "missing.mp4"), 3, "missing.mp4: no such file"),

@@ -12,9 +12,7 @@ struct Advice {
   std::string_view camera, microphone;
 };
 
-constexpr std::array<Advice, 5> kAdvice = {{
-    {"cannot run 'ffmpeg'", "install ffmpeg, which reads cameras and microphones",
-     "install ffmpeg, which reads cameras and microphones"},
+constexpr std::array<Advice, 4> kAdvice = {{
     {"No such file or directory", "connect a camera, or choose one that `mien devices` lists",
      "connect a microphone, or choose one that `mien devices` lists"},
     {"Permission denied", "allow the camera: on Linux, add the user to the group video",
@@ -28,6 +26,9 @@ constexpr std::array<Advice, 5> kAdvice = {{
 }  // namespace
 
 std::string advised(CaptureKind kind, const std::string& error) {
+  if (error.find("cannot run 'ffmpeg'") != std::string::npos) {
+    return error;  // cannot_run has advised
+  }
   for (const Advice& advice : kAdvice) {
     if (error.find(advice.error) != std::string::npos) {
       const std::string_view text =

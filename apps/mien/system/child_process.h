@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/mien/system/failure.h"
+
 namespace mien::app {
 
 class ChildProcess {
@@ -43,5 +45,8 @@ class ChildProcess {
   // Returns and clears the text that the child has written to stderr.
   virtual std::string take_errors() = 0;
 };
+
+// The error of a program that does not start, with advice.
+[[nodiscard]] Failure cannot_run(const std::string& program, const std::string& reason);
 
 }  // namespace mien::app

@@ -7,6 +7,12 @@
 
 namespace mien::app {
 
+Failure cannot_run(const std::string& program, const std::string& reason) {
+  return {kExitNoFfmpeg, "cannot run '" + program + "': " + reason +
+                             "; install ffmpeg, for example with `apt install ffmpeg`, "
+                             "`brew install ffmpeg` or `winget install ffmpeg`"};
+}
+
 Subprocess::Subprocess(const std::vector<std::string>& arguments, Pipe pipe,
                        std::chrono::milliseconds timeout)
     : name_(arguments[0]),

@@ -187,7 +187,7 @@ def test_files_without_video_are_rejected(tmp_path, monkeypatch):
         list(mien.track_file(tmp_path / "text.mp4"))
     assert mien.columns([]) == {}
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(mien.MienError, match="cannot run 'ffprobe'"):
+    with pytest.raises(mien.MienError, match="cannot run 'ffprobe': not on PATH; install ffmpeg, for example with `apt install ffmpeg`"):
         list(mien.track_file(tmp_path / "text.mp4"))
 
 
@@ -211,5 +211,5 @@ def test_files_that_are_no_images_are_rejected(tmp_path, monkeypatch):
     with pytest.raises(mien.MienError, match="text.jpg: cannot be read as an image: .+"):
         mien.track_image(tmp_path / "text.jpg")
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(mien.MienError, match="ffmpeg cannot be run"):
+    with pytest.raises(mien.MienError, match="cannot run 'ffmpeg': not on PATH; install ffmpeg, for example with `apt install ffmpeg`"):
         mien.track_image(tmp_path / "text.jpg")

@@ -78,7 +78,7 @@ pid_t spawn(const std::vector<std::string>& arguments, int child_stdin, int chil
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
-    throw Failure(kExitNoFfmpeg, "cannot run '" + arguments[0] + "': " + std::strerror(error));
+    throw cannot_run(arguments[0], error == ENOENT ? "not on PATH" : std::strerror(error));
   }
   return pid;
 }

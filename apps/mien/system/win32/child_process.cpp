@@ -164,7 +164,7 @@ std::wstring find_program(const std::string& name) {
   const DWORD length = SearchPathW(folders.c_str(), wide(name).c_str(), L".exe",
                                    static_cast<DWORD>(found.size()), found.data(), nullptr);
   if (length == 0) {
-    throw Failure(kExitNoFfmpeg, "cannot run '" + name + "': neither beside mien nor on PATH");
+    throw cannot_run(name, "neither beside mien nor on PATH");
   }
   return {found.data(), length};
 }
@@ -209,7 +209,7 @@ Handle spawn(const std::vector<std::string>& arguments, std::array<HANDLE, 3> st
   if (CreateProcessW(program.c_str(), line.data(), nullptr, nullptr, TRUE,
                      EXTENDED_STARTUPINFO_PRESENT | CREATE_NO_WINDOW, nullptr, nullptr,
                      &start.StartupInfo, &result) == 0) {
-    throw Failure(kExitNoFfmpeg, "cannot run '" + arguments[0] + "': " + last_error());
+    throw cannot_run(arguments[0], last_error());
   }
   CloseHandle(result.hThread);
   return Handle(result.hProcess);

@@ -21,6 +21,8 @@ from .tracker import Color, Frame, Lod, Tracker, level
 from .vocabulary import CONTROL_NAMES
 
 _NOTE = "mien: note: "
+# As the program's message (apps/mien/system/subprocess.cpp).
+_INSTALL_FFMPEG = "install ffmpeg, for example with `apt install ffmpeg`, `brew install ffmpeg` or `winget install ffmpeg`"
 _NAN = float("nan")
 _STILL_FRAMES = 12  # after which smoothing and temporal decoders have settled
 _CONTROLS = frozenset(CONTROL_NAMES)
@@ -80,7 +82,8 @@ def _read_image(path: Path) -> Frame:
     try:
         answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
     except OSError as error:
-        raise MienError(f"ffmpeg cannot be run: {error.strerror}") from error
+        reason = "not on PATH" if isinstance(error, FileNotFoundError) else error.strerror
+        raise MienError(f"cannot run 'ffmpeg': {reason}; {_INSTALL_FFMPEG}") from error
     header = re.match(rb"P6\s(\d+)\s(\d+)\s255\s", answer.stdout)
     if answer.returncode != 0 or header is None:
         raise MienError(f"{path}: cannot be read as an image: {answer.stderr.decode('utf-8', 'replace').strip()}")
