@@ -20,7 +20,7 @@ javac --release 17 -Xlint:all -Werror -cp "$classes" -d "$out/tests" bindings/an
 run=(java -Xcheck:jni -Djava.library.path="$out/jni")
 "${run[@]}" -cp "$classes:$out/tests" ClipTest
 
-bindings/readme_test.sh android java Example.java
+tests/docs/paths_test.py java
 
 bindings/android/aar.sh "$out/mien.aar" "$classes" x86_64="$out/jni/libmien_jni.so"
 unzip -l "$out/mien.aar" >"$out/aar.txt"

@@ -16,4 +16,4 @@ mcs -warnaserror -warn:4 -r:"$out/Mien.dll" -out:"$out/tests.exe" bindings/cshar
 mcs -warnaserror -warn:4 -nowarn:649 -target:library -r:"$out/Mien.dll" -out:"$out/Webcam.dll" bindings/csharp/Samples~/Webcam/*.cs bindings/csharp/Tests/Unity/*.cs
 export LD_LIBRARY_PATH=$MIEN_LIBRARY_DIR
 mono "$out/tests.exe"
-bindings/readme_test.sh csharp csharp Example.cs
+tests/docs/paths_test.py csharp

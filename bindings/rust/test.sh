@@ -11,4 +11,4 @@ fi
 . bindings/library.sh
 export CARGO_TARGET_DIR=$PWD/build/bindings/rust RUSTFLAGS="-D warnings" RUSTDOCFLAGS="-D warnings"
 (cd bindings/rust && "$cargo" test --offline --locked --quiet)
-CARGO_NET_OFFLINE=true bindings/readme_test.sh rust rust example/src/main.rs
+CARGO_NET_OFFLINE=true tests/docs/paths_test.py rust

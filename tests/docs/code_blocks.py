@@ -34,8 +34,11 @@ def tracked(*patterns):
 
 
 def check():
+    from paths_test import PATHS
+
     tests = "\n".join((ROOT / name).read_text() for name in tracked("tests/*.sh", "bindings/*.sh", "*.test.mjs"))
-    tests = re.sub(r"bindings/readme_test.sh (\w+) (\w+)", r"bindings/\1/README.md \2 bindings/\1/README.md sh", tests)
+    for path in PATHS.values():
+        tests += "".join(f"\n{path.page} {language}" for language, _ in [*path.files.values(), ("sh", 1)])
     missing = 0
     for page in tracked("*.md"):
         for language in sorted({language for language, _ in blocks((ROOT / page).read_text())} - {""} - NOT_RUN.keys()):

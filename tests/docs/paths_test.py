@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Follows a README as a newcomer would, from its text alone, in a copy of the repository, and expects the controls of a face.
+
+usage: paths_test.py NAME...      NAME: one of PATHS below
+
+Saves the page's program under its file name there, and runs the page's commands, which may be at most two. A pipeline counts as one
+command; saving a program does not count. Then runs the commands once more: with everything compiled they must take less than
+60 s. Exits with 77 and says so where a tool is missing.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from code_blocks import ROOT, blocks
+
+MOST_COMMANDS, MOST_SECONDS, SKIPPED = 2, 60, 77
+
+
+@dataclass(frozen=True)
+class Way:
+    page: str
+    tools: str
+    files: dict  # from names of files to (language, number) of the page's blocks
+    commands: int = 1  # number of the block in `sh`
+    only: str = "."  # commands of the block that belong to this path
+    value: str = r"jawOpen ([\d.]+)"  # jawOpen in the output
+    rows: int = 200  # at least
+    environment: bool = False  # creates a virtual environment of Python first
+
+
+FIRST_COLUMN = r"^([01][.,]\d\d) "
+PATHS = {
+    "csharp": Way("bindings/csharp/README.md", "mcs mono", {"Example.cs": ("csharp", 1)}, value=FIRST_COLUMN),
+    "java": Way("bindings/android/README.md", "javac", {"Example.java": ("java", 1)}, value=FIRST_COLUMN),
+    "rust": Way(
+        "bindings/rust/README.md",
+        "cargo",
+        {"example/Cargo.toml": ("toml", 1), "example/src/main.rs": ("rust", 1)},
+        value=FIRST_COLUMN,
+    ),
+}
+
+
+def fail(message):
+    raise SystemExit(f"paths_test.py: {message}")
+
+
+def block(page, language, number):
+    found = [code for name, code in blocks((ROOT / page).read_text()) if name == language]
+    if len(found) < number:
+        fail(f"{page}: no such block (got {language} {number}, expected 1 to {len(found)})")
+    return found[number - 1]
+
+
+def commands(path):
+    lines = [re.sub(r"\s+#.*", "", line) for line in block(path.page, "sh", path.commands).splitlines()]
+    parts = [part.strip() for line in lines for part in re.split(r";|&&", line)]
+    return [part for part in parts if re.search(path.only, part)]
+
+
+def prepare(path):
+    """A folder with the repository's files, without what earlier runs left except for what they compiled."""
+    work = ROOT / "build/readme"
+    (work / "build").mkdir(parents=True, exist_ok=True)
+    for old in work.iterdir():
+        if old.name != "build":
+            shutil.rmtree(old) if old.is_dir() and not old.is_symlink() else old.unlink()
+    for file in ROOT.iterdir():
+        if file.name not in ("build", ".git"):
+            (work / file.name).symlink_to(file)
+    (work / "face.mp4").symlink_to(ROOT / "tests/data/demo.mp4")
+    subprocess.run(["ffmpeg", "-v", "error", "-ss", "4", "-i", "face.mp4", "-frames:v", "1", "face.jpg"], cwd=work, check=True)
+    text = (ROOT / path.page).read_text()
+    for name, (language, number) in path.files.items():
+        if f"`{name}`" not in text:
+            fail(f"{path.page}: does not name the file {name}")
+        (work / name).parent.mkdir(parents=True, exist_ok=True)
+        (work / name).write_text(block(path.page, language, number))
+    return work
+
+
+def run(name, path, work, environment):
+    began = time.monotonic()
+    script = "set -euo pipefail\n" + "\n".join(commands(path))
+    result = subprocess.run(
+        ["bash", "-c", script], cwd=work, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    seconds = time.monotonic() - began
+    values = [float(value.replace(",", ".")) for value in re.findall(path.value, result.stdout, re.MULTILINE)]
+    if result.returncode or len(values) < path.rows or min(values) < 0 or not 0.3 < max(values) <= 1:
+        print(result.stdout, file=sys.stderr)
+        fail(f"{name}: wrong output (got status {result.returncode} and {len(values)} values of jawOpen up to {max(values, default=0)})")
+    return seconds
+
+
+def follow(name):
+    path = PATHS[name]
+    count = len(commands(path))
+    if count > MOST_COMMANDS:
+        fail(f"{path.page}: too many commands (got {count}, expected at most {MOST_COMMANDS})")
+    missing = [tool for tool in ["ffmpeg", *path.tools.split()] if shutil.which(tool) is None]
+    if missing:
+        print(f"NOT TESTED: {path.page}, for which there is no {missing[0]}")
+        return SKIPPED
+    work = prepare(path)
+    environment = {**os.environ, "CCACHE_BASEDIR": str(work)}
+    if path.environment:
+        subprocess.run([sys.executable, "-m", "venv", work / "environment"], check=True)
+        environment["PATH"] = f"{work}/environment/bin:{environment['PATH']}"
+    first = run(name, path, work, environment)
+    again = run(name, path, work, environment)
+    print(f"{name}: {count} commands of {path.page}: {first:.1f} s with compilation, {again:.1f} s without")
+    if again >= MOST_SECONDS:
+        fail(f"{name}: too slow (got {again:.1f} s without compilation, expected less than {MOST_SECONDS})")
+    return 0
+
+
+def main(names):
+    if not names or set(names) - set(PATHS):
+        raise SystemExit(__doc__ + "\nnames: " + " ".join(PATHS))
+    return max(follow(name) for name in names)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
