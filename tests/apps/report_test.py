@@ -231,6 +231,17 @@ class Page(report_browser.PageTest):
             self.assertEqual(self.js("report.take.frameAt(report.player.clock.time_ms)"), i)
             self.assertAlmostEqual(float(self.js("document.querySelector('[data-lane=jaw] b').textContent")), float(rows[i]["jawOpen"]), delta=0.006)
 
+    def test_tracking_time_in_words_of_users(self):
+        self.open()
+        stages = json.loads(Folder.bytes("stats.json"))["stages"]
+        parts = {"detection": ["proposal"], "face": ["warp", "encoder", "heads", "decoders"], "audio": ["sound"], "all": ["frame"]}
+        rows = json.loads(self.js("JSON.stringify([...document.querySelectorAll('#times tbody tr')].map(row => [...row.cells].map(cell => cell.textContent)))"))
+        self.assertEqual(rows[-1][0], "all")
+        self.assertEqual({name: text for name, text, _ in rows},
+                         {name: f"{sum(stages[stage]['total_ms'] for stage in of if stage in stages) / FRAMES:.2f} ms" for name, of in parts.items()})
+        self.assertGreater(sum(int(share.removesuffix(" %")) for _, _, share in rows[:-1]), 90)
+        self.assertIn(f"95\u00a0% at most {stages['frame']['p95_ms']:.2f} ms", self.js("document.getElementById('times-note').textContent"))
+
     def test_pyramids_give_the_range_of_every_interval(self):
         self.open()
         self.assertEqual(self.js("""(() => {

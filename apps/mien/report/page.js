@@ -64,7 +64,7 @@ async function open() {
   const losses = report.losses = findLosses(take), view = report.view = new View(data.start_ms, data.end_ms);
   showFacts(take);
   showLosses(losses, take, goTo);
-  showStages();
+  showTimes(take.frames);
   showDownloads();
   const seek = t_ms => report.player.seek(t_ms);
   const lanes = report.lanes = new Lanes(take, view, losses, seek), overview = report.overview = new Overview(take, view, losses, seek);

@@ -1,9 +1,8 @@
 // Displays figures of the tracker: rates, times, voice activity, and every control as a bar.
+import {trackerParts} from './parts.js';
 
 const element = (tag, text) => Object.assign(document.createElement(tag), {textContent: text});
 const ms = value => `${value.toFixed(value < 10 ? 2 : 1)} ms`;
-// Parts of the tracker in the words of users: which stages each has.
-const parts = {detection: ['proposal'], face: ['warp', 'encoder', 'heads', 'decoders'], audio: ['sound']};
 const refresh_ms = 250;
 
 export class Numbers {
@@ -34,7 +33,7 @@ export class Numbers {
 
   show(result, {rate, dropped}) {
     const whole = this.mean('frame', result.tookMs);
-    const times = Object.entries(parts).map(([name, stages]) => [name, this.mean(name, stages.reduce((sum, stage) => sum + result.stageNs[stage], 0) / 1e6)]);
+    const times = Object.entries(trackerParts).map(([name, stages]) => [name, this.mean(name, stages.reduce((sum, stage) => sum + result.stageNs[stage], 0) / 1e6)]);
     if (this.details.open) this.showBars(result);
     if (performance.now() - this.shownAt < refresh_ms) return;
     this.shownAt = performance.now();
