@@ -71,7 +71,7 @@ export class Renderer {
     this.mesh = join([...moving, ...still]);
     this.moving = moving.reduce((sum, mesh) => sum + mesh.positions.length, 0);
     const gl = this.gl = canvas.getContext('webgl2', {antialias: false});
-    if (!gl) throw new Error('this browser has no WebGL 2, which the face needs');
+    if (!gl) throw new Error('this browser has no WebGL 2, which the face needs; update it, or allow graphics acceleration in its settings');
     canvas.addEventListener('webglcontextlost', event => event.preventDefault());
     canvas.addEventListener('webglcontextrestored', () => this.prepare());
     this.prepare();

@@ -95,12 +95,13 @@ class Page {
     const opening = how(), {generation} = this.source;
     const isStale = () => generation !== this.source.generation;  // another source was opened, or this one was stopped
     try {
-      const missing = await opening;
+      const {missing, problem} = await opening ?? {};
       if (isStale()) return;
       this.tracking.reset();
       this.setRunning(true);
       this.openedAt = performance.now();
       this.missing = missing ? `, without ${missing}` : '';
+      if (problem) complain(problem);
     } catch (error) {
       if (isStale()) return;
       this.stop();

@@ -4,6 +4,9 @@
 const cameraWish = {width: {ideal: 640}, height: {ideal: 480}, frameRate: {ideal: 30}, facingMode: 'user'};
 const microphoneWish = {echoCancellation: false, noiseSuppression: false, autoGainControl: true};
 const tick_ms = 1000 / 30;
+const lost = {
+  video: 'the camera was disconnected; connect it again, then press Camera',
+  audio: 'the microphone was disconnected; connect it again, or press Camera to go on without it'};
 
 export class Source {
   constructor(video, sound, tracking) {
@@ -11,15 +14,15 @@ export class Source {
     video.addEventListener('ended', () => this.onEnd?.());
   }
 
-  // Either camera or microphone may be missing; with both missing the camera's error is thrown.
+  // Either camera or microphone may be missing.
   async openCamera() {
     const mine = this.close();
-    const {stream, missing} = await openDevices();
+    const {stream, ...missing} = await openDevices();
     if (mine !== this.generation) return stopTracks(stream);
     this.stream = stream;
     this.video.muted = true;
     this.video.srcObject = stream.getVideoTracks().length ? stream : null;
-    for (const track of stream.getTracks()) track.addEventListener('ended', () => this.onEnd?.(`the ${track.kind === 'video' ? 'camera' : 'microphone'} is gone`));
+    for (const track of stream.getTracks()) track.addEventListener('ended', () => this.onEnd?.(lost[track.kind]));
     if (stream.getAudioTracks().length) await this.sound.listen(stream, false);
     await this.start(mine);
     return missing;
@@ -33,7 +36,7 @@ export class Source {
     this.video.loop = true;
     await new Promise((done, failed) => {
       this.video.onloadeddata = done;
-      this.video.onerror = () => failed(new Error(`${file.name}: this browser cannot play it`));
+      this.video.onerror = () => failed(new Error(`${file.name}: this browser cannot play it; convert it to MP4 with H.264`));
     });
     if (mine !== this.generation) return;
     await this.sound.listen(this.video, true);
@@ -96,20 +99,22 @@ function stopTracks(stream) {
   for (const track of stream.getTracks()) track.stop();
 }
 
+// Returns {stream, missing, problem}: `missing` is a device without which the stream works, and `problem` a camera's.
 async function openDevices() {
   const devices = navigator.mediaDevices;
-  if (!devices) throw new Error('this page needs https, or localhost, to use a camera');
+  if (!devices) throw new Error('this page must not use a camera here; open it with https, or on localhost');
   try {
-    return {stream: await devices.getUserMedia({video: cameraWish, audio: microphoneWish}), missing: null};
-  } catch (problem) {
-    const alone = async (wish, missing) => ({stream: await devices.getUserMedia(wish), missing});
-    return alone({video: cameraWish}, 'microphone')
-      .catch(() => alone({audio: microphoneWish}, 'camera'))
-      .catch(() => { throw new Error(spoken(problem)); });
+    return {stream: await devices.getUserMedia({video: cameraWish, audio: microphoneWish})};
+  } catch {
+    return devices.getUserMedia({video: cameraWish}).then(stream => ({stream, missing: 'microphone'}), async error => {
+      const problem = advised(error);
+      const stream = await devices.getUserMedia({audio: microphoneWish}).catch(() => { throw new Error(problem); });
+      return {stream, missing: 'camera', problem};
+    });
   }
 }
 
-const spoken = ({name, message}) => ({
-  NotAllowedError: 'the browser was not allowed to use camera and microphone',
-  NotFoundError: 'no camera and no microphone was found',
-  NotReadableError: 'another program is using the camera'}[name] ?? message);
+const advised = ({name, message}) => ({
+  NotAllowedError: "the browser may not use the camera; allow it in the address bar, or in the system's privacy settings, then press Camera again",
+  NotFoundError: 'no camera was found; connect a camera, then press Camera again, or load a video',
+  NotReadableError: 'the camera does not start; close other programs that use it, then press Camera again'}[name] ?? message);
