@@ -302,8 +302,8 @@ export interface VRMAvatar {
 
 /**
  * Sets the morph targets of a mesh or group of three.js whose names are those of ARKit (which are MediaPipe's) or Roblox, in any case, with _L and _R
- * and with a prefix. If none of them opens the jaw, at least three names of Oculus (viseme_aa, v_aa, aa), VRM or VRoid move the mouth.
- * Controls that are not predicted count as 0. The names of an object are read once.
+ * and behind a prefix: Face.jawOpen, or Head_jawOpen if at least three names share Head_. If none of them opens the jaw, at least three names of
+ * Oculus (viseme_aa, v_aa, aa), VRM or VRoid move the mouth. Controls that are not predicted count as 0. The names of an object are read once.
  * @returns number of morph targets that were set
  */
 export function applyToMorphs(root: Morphs, result: Pick<Result, 'controls'> & Partial<Pick<Result, 'visemes'>>): number;

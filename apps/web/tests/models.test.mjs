@@ -78,6 +78,12 @@ test('a GLB with names of ARKit moves', async () => {
   turns(looks);
 });
 
+test('a GLB with names behind a prefix that they share moves', async () => {
+  const {weights, status} = await moved(headModel(['Head_jawOpen', 'Head_mouthSmile_L', 'Head_cheekPuff', 'Hat_jawOpen']), 'prefix.glb', {jawOpen: 0.5, mouthSmileLeft: 0.25});
+  assert.deepEqual(weights, [0.5, 0.25, 0, 0]);
+  assert.match(status, /3 names of ARKit/);
+});
+
 test('a GLB with names of Roblox moves', async () => {
   const {weights} = await moved(headModel(['JawDrop', 'LeftEyeClosed', 'Pucker']), 'roblox.glb', {jawOpen: 0.5, eyeBlinkLeft: 1, mouthPucker: 0.2});
   assert.deepEqual(weights, [0.5, 1, 0.2]);

@@ -60,6 +60,26 @@ test('visemes and vowels rest where names of ARKit open the jaw, and single lett
   assert.equal(applyToMorphs(mesh('A', 'E', 'hat'), resultOf({})), 0);
 });
 
+test('morph targets follow behind a prefix that three names share', () => {
+  const values = resultOf({jawOpen: 0.5, mouthSmileLeft: 0.25, eyeBlinkLeft: 1, cheekPuff: 0.75});
+  const two = mesh('Body.Head_jawOpen', 'Body.Head_mouthSmile_L', 'Body.Head_eyeBlinkLeft', 'Teeth_LOD0_jawOpen', 'Teeth_LOD0_jawLeft', 'Teeth_LOD0_jawRight', 'cheekPuff');
+  assert.equal(applyToMorphs(two, values), 7);
+  near(two.morphTargetInfluences, [0.5, 0.25, 1, 0.5, 0, 0, 0.75]);
+  assert.equal(applyToMorphs(mesh('Head_jawOpen', 'Head_jawopen', 'Head_mouthSmile_L', 'Hat_eyeBlinkLeft', 'Head_long'), values), 0, 'two names share it');
+});
+
+test('visemes and vowels follow behind a prefix, but parts of a face in VRoid have no prefix', () => {
+  const shifted = mesh(...readyPlayerMe.map(name => 'Head_' + name));
+  assert.equal(applyToMorphs(shifted, {...resultOf({}), visemes}), 15);
+  near(shifted.morphTargetInfluences, visemes);
+  const vowels = mesh('Mouth_A', 'Mouth_I', 'Mouth_U', 'Mouth_wide');
+  assert.equal(applyToMorphs(vowels, resultOf({jawOpen: 0.5, mouthPucker: 0.25})), 3);
+  near(vowels.morphTargetInfluences, [0.5, 0, 0.25, 0.125]);
+  const vroid = mesh('Fcl_MTH_A', 'Fcl_MTH_I', 'Fcl_MTH_U', 'Fcl_MTH_Joy', 'Fcl_ALL_Joy');
+  assert.equal(applyToMorphs(vroid, resultOf({mouthSmileLeft: 1, mouthSmileRight: 1})), 4);
+  near(vroid.morphTargetInfluences, [0, 0, 0, 0.125, 1]);
+});
+
 test('morph targets with names of VRM follow', () => {
   const values = resultOf({jawOpen: 0.5, mouthPucker: 0.25, eyeBlinkLeft: 1});
   for (const names of [['Fcl_MTH_A', 'Fcl_MTH_U', 'Fcl_EYE_Close_L'], ['A', 'U', 'Blink_L'], ['aa', 'ou', 'blinkLeft']]) {
