@@ -13,6 +13,7 @@ import unittest
 
 DOCS = sys.argv.pop(2)
 PROGRAM = sys.argv.pop(1)
+CLIP = os.path.join(DOCS, "..", "tests", "data", "demo.mp4")
 
 
 def run(*arguments, **more):
@@ -106,7 +107,9 @@ class Manners(unittest.TestCase):
         # cspell:ignore lood trak
         for arguments, wanted in ((["trak"], "mien: unknown verb 'trak'; did you mean 'track'?\n"), (["cmopare", "a"], "'compare'"),
                                   (["track", "--lood", "3", "x"], "mien: track: unknown option '--lood'; did you mean '--lod'?\n"),
-                                  (["--verson"], "'--version'"), (["xyzzy"], "mien: unknown verb 'xyzzy'\n")):
+                                  (["--verson"], "'--version'"), (["xyzzy"], "mien: unknown verb 'xyzzy'\n"),
+                                  ([], "mien: a verb is required; `mien --help` lists them\n"), (["track", "a", "b"], "mien: unexpected argument 'b'\n"),
+                                  (["track", "--lod", "1", "--lod", "2"], "mien: --lod: may be given only once\n")):
             done = run(*arguments)
             self.assertEqual(done.returncode, 2)
             self.assertIn(wanted, done.stderr)
@@ -151,6 +154,32 @@ class Manners(unittest.TestCase):
                 with open(writer, "w") as gone:
                     done = subprocess.run([PROGRAM, *arguments], stdout=gone, stderr=subprocess.PIPE, text=True, timeout=120)
                 self.assertEqual((done.returncode, [line for line in done.stderr.splitlines() if line.startswith("mien:")]), (0, []), arguments)
+
+    def test_invalid_values_name_what_is_expected(self):
+        for arguments, wanted in ((["track", "x", "--lod", "high"], "--lod: invalid value (got 'high', expected 1, 2, 3, 4 or auto)"),
+                                  (["track", "x", "--fov", "200"], "--fov: invalid value (got '200', expected a number from 1 to 170)"),
+                                  (["track", "x", "--duration", "0"], "--duration: invalid value (got '0', expected a number above 0)"),
+                                  (["track", "x", "--max-faces", "1.5"], "--max-faces: invalid value (got '1.5', expected an integer from 1 to 8)"),
+                                  (["convert", "a", "b", "--face", "x"], "--face: invalid value (got 'x', expected an integer)"),
+                                  (["track", CLIP, "--tier", "x"], "--tier: unknown tier (got 'x', expected one of ref ")):
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("mien: " + wanted, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_choices_and_missing_values(self):
+        """For every option with a value."""
+        tried = 0
+        for verb in verbs():
+            for option, value in re.findall(r"^\s+(--?[a-z][-a-z]*) ([A-Z]+|[a-z0-9|-]+\|[a-z0-9|-]+) ", run(verb, "--help").stdout, re.M):
+                tried += 1
+                done = run(verb, option)
+                self.assertEqual((done.returncode, done.stderr), (2, f"mien: {option}: value missing (expected {value})\n"))
+                if "|" in value and "csv" not in value:  # --format and others fail later, with the formats
+                    *choices, last = value.split("|")
+                    done = run(verb, option, "wrong")
+                    self.assertIn(f"mien: {option}: invalid value (got 'wrong', expected {', '.join(choices)} or {last})", done.stderr)
+        self.assertGreaterEqual(tried, 60)
 
     def test_invalid_numbers(self):
         """For every option with a number."""

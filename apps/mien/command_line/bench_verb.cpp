@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/mien/bench/bench.h"
+#include "apps/mien/command_line/option_values.h"
 
 namespace mien::app {
 
@@ -23,7 +24,7 @@ void add_bench(CLI::App& program) {
   verb->add_option("--rounds", options->rounds,
                    "with --levels: repetitions per frame; the fastest counts (default 30)")
       ->needs(levels)
-      ->check(CLI::Range(1, 10'000))
+      ->check(integer_from(1, 10'000))
       ->capture_default_str();
   auto* audio = verb->add_flag("--sound", options->audio,
                                "measure audio from samples to controls, in blocks of 16 ms")

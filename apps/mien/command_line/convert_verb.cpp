@@ -1,10 +1,11 @@
 // Options of `mien convert`.
 #include "apps/mien/convert/convert.h"
 
+#include <cstdint>
 #include <memory>
 
 #include "apps/mien/command_line/animation_options.h"
-#include "apps/mien/command_line/finite_number.h"
+#include "apps/mien/command_line/option_values.h"
 #include "apps/mien/command_line/verbs.h"
 
 namespace mien::app {
@@ -21,8 +22,9 @@ void add_convert(CLI::App& program) {
   verb->add_option("--to", options->to, "format of OUTPUT");
   verb->add_option("--fps", options->fps,
                    "resample to this number of frames per second, 0.1 to 1000")
-      ->check(finite(CLI::Range(0.1, 1000.0)));
-  verb->add_option("--face", options->face, "keep only the face with this id");
+      ->check(number_from(0.1, 1000.0));
+  verb->add_option("--face", options->face, "keep only the face with this id")
+      ->check(number<std::int64_t>("an integer", [](std::int64_t) { return true; }));
   verb->add_option("--from-llf-rot", options->from_rotation,
                    "unit of the rotations of INPUT (Live Link Face): rad, norm180 or deg (default: "
                    "from INPUT.json, or detected)")
@@ -30,7 +32,7 @@ void add_convert(CLI::App& program) {
   verb->add_option("--from-llf-fps", options->from_timecode_fps,
                    "frames per second of the timecode of INPUT (Live Link Face), 1 to 100 "
                    "(default: from INPUT.json, or detected)")
-      ->check(finite(CLI::Range(1.0, 100.0)));
+      ->check(number_from(1.0, 100.0));
   verb->add_option("--from-bvh-unit", options->from_bvh_unit,
                    "unit of the positions of INPUT (BVH): m, cm, mm or in (default: detected from "
                    "the size of the skeleton)")

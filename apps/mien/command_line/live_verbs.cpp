@@ -1,7 +1,7 @@
 // Options of `mien live` and `mien devices`.
 #include <memory>
 
-#include "apps/mien/command_line/finite_number.h"
+#include "apps/mien/command_line/option_values.h"
 #include "apps/mien/command_line/tracker_options.h"
 #include "apps/mien/command_line/verbs.h"
 #include "apps/mien/live/live.h"
@@ -30,7 +30,7 @@ void add_live(CLI::App& program) {
   verb->add_flag("--mirror", options->mirror, "exchange left and right");
   verb->add_option("--av-offset-ms", options->av_offset_ms,
                    "the audio belongs to images that are this much later; negative: earlier")
-      ->check(finite(CLI::Range(-10000.0, 10000.0)));
+      ->check(number_from(-10000.0, 10000.0));
   add_voice_strength(*verb, *options);
   add_field_of_view(*verb, *options);
   add_level_options(*verb, *options);
@@ -47,7 +47,7 @@ void add_live(CLI::App& program) {
               "free port); its URL is printed")
           ->expected(0, 1)
           ->default_str("0")
-          ->check(CLI::Range(0, 65535));
+          ->check(integer_from(0, 65535));
   verb->add_option("--page-token", options->page_token,
                    "keep the secret part of the page's URL in this file, created if it does not "
                    "exist (default: a new one for each run)")
@@ -55,7 +55,7 @@ void add_live(CLI::App& program) {
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--duration", options->duration_s, "end after this number of seconds")
-      ->check(finite(CLI::PositiveNumber));
+      ->check(positive_number());
   verb->add_option("--stats", options->stats, "counts and times as JSON, written at the end");
   verb->add_flag("--quiet", options->quiet, "no screen, no summary");
   verb->callback([options] { live(*options); });

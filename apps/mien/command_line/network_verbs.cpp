@@ -1,9 +1,9 @@
 // Options of `mien inspect` and `mien run`.
 #include "apps/mien/command_line/verbs.h"
 
-#include <map>
 #include <memory>
 
+#include "apps/mien/command_line/option_values.h"
 #include "apps/mien/networks/inspect.h"
 #include "apps/mien/networks/run.h"
 
@@ -29,8 +29,8 @@ void add_run(CLI::App& program) {
   verb->add_option("--network", options->network,
                    "name of the network; required if the file has several");
   verb->add_option("--layout", options->layout, "axis order of maps: chw (default) or hwc")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, MapLayout>{
-          {"chw", MapLayout::kChannelsFirst}, {"hwc", MapLayout::kChannelsLast}}));
+      ->transform(one_of<MapLayout>(
+          {{"chw", MapLayout::kChannelsFirst}, {"hwc", MapLayout::kChannelsLast}}));
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->callback([options] { run_network(*options); });
 }

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "apps/mien/command_line/finite_number.h"
+#include "apps/mien/command_line/option_values.h"
 #include "apps/mien/tracking/neutral.h"
 
 namespace mien::app {
@@ -16,9 +16,9 @@ void add_neutral(CLI::App& program) {
   verb->add_option("-o", options->output, "neutral file for `mien track --neutral`")->required();
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--start", options->start_s, "start of the part to use, in seconds")
-      ->check(finite(CLI::NonNegativeNumber));
+      ->check(non_negative_number());
   verb->add_option("--duration", options->duration_s, "length of the part to use, in seconds")
-      ->check(finite(CLI::PositiveNumber));
+      ->check(positive_number());
   verb->add_flag("--json", options->json, "print a summary as JSON");
   verb->add_flag("--quiet", options->quiet, "print no summary");
   verb->callback([options] { neutral(*options); });

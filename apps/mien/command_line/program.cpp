@@ -12,7 +12,6 @@
 #include "apps/mien/command_line/reference.h"
 #include "apps/mien/command_line/verbs.h"
 #include "apps/mien/system/failure.h"
-#include "apps/mien/system/printable.h"
 
 namespace mien::app {
 
@@ -41,12 +40,14 @@ int run_program(int argc, char** argv) {
   }
   try {
     program.parse(argc, argv);
+  } catch (const CLI::Success& wanted) {  // --help, --version
+    std::ostringstream text;
+    program.exit(wanted, text);
+    std::fputs(text.str().c_str(), stdout);
+  } catch (const CLI::ExtrasError&) {
+    throw Failure(kExitUsage, "unexpected argument '" + program.remaining(true).front() + "'");
   } catch (const CLI::ParseError& error) {
-    std::ostringstream help, errors;
-    const int code = program.exit(error, help, errors);
-    std::fputs(help.str().c_str(), stdout);
-    std::fputs(printable_lines(errors.str()).c_str(), stderr);
-    return code == 0 ? kExitOk : kExitUsage;
+    throw Failure(kExitUsage, error.what());
   }
   return kExitOk;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+#include <span>
 
 namespace mien::app {
 namespace {
@@ -31,6 +33,9 @@ const std::map<std::string, std::string>& value_names() {
       {"--report", "FILE"},
       {"--report-clip-mb", "MB"},
       {"--audio", "FILE"},
+      {"--audio-track", "N"},
+      {"--rotate", "0|90|180|270"},
+      {"--rounds", "N"},
       {"--mode", "av|video|audio"},
       {"--av-offset-ms", "MS"},
       {"--voice-strength", "X"},
@@ -178,6 +183,37 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+// Whether the option at the end of `words` or before another option lacks its value.
+bool lacks_value(const CLI::Option& option, std::span<const std::string> words) {
+  const bool attached = words[0] != option_name(words[0]);
+  return option.get_items_expected_min() > 0 && !attached &&
+         (words.size() == 1 || is_option(words[1]));
+}
+
+// Returns a message about the first option that is unknown, lacks its value or is repeated, or "".
+std::string option_error(std::span<const std::string> arguments, const CLI::App& verb) {
+  std::set<const CLI::Option*> seen;
+  for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
+    if (!is_option(arguments[i])) {
+      continue;
+    }
+    const std::string name = option_name(arguments[i]);
+    const CLI::Option* option = verb.get_option_no_throw(name);
+    if (option == nullptr) {
+      return with_suggestion(verb.get_name() + ": unknown option '" + name + "'", name,
+                             option_names(verb));
+    }
+    if (lacks_value(*option, arguments.subspan(i))) {
+      return name + ": value missing (expected " + option->get_option_text() + ")";
+    }
+    if (!seen.insert(option).second &&
+        option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw) {
+      return name + ": may be given only once";
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void finish_help(CLI::App& program) {
@@ -244,7 +280,7 @@ std::string nearest(const std::string& typed, const std::vector<std::string>& kn
 
 std::string find_usage_error(const std::vector<std::string>& arguments, const CLI::App& program) {
   if (arguments.empty()) {
-    return {};
+    return "a verb is required; `mien --help` lists them";
   }
   const std::string& first = arguments.front();
   std::vector<std::string> names = option_names(program);
@@ -261,20 +297,7 @@ std::string find_usage_error(const std::vector<std::string>& arguments, const CL
   if (verb == nullptr) {
     return with_suggestion("unknown verb '" + first + "'", first, names);
   }
-  names = option_names(*verb);
-  for (const std::string& word : arguments) {
-    if (word == "--") {
-      break;
-    }
-    if (is_option(word) &&
-        std::find(names.begin(), names.end(), option_name(word)) == names.end()) {
-      const std::string name = option_name(word);
-      std::string what = first;
-      what.append(": unknown option '").append(name).append("'");
-      return with_suggestion(what, name, names);
-    }
-  }
-  return {};
+  return option_error(arguments, *verb);
 }
 
 }  // namespace mien::app

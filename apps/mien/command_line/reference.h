@@ -32,8 +32,9 @@ std::vector<std::string> choices(const OptionText& option);
 // Returns the name in `known` with the smallest edit distance to `typed`, or "" if none is close.
 std::string nearest(const std::string& typed, const std::vector<std::string>& known);
 
-// Returns a message about the first unknown verb or option, with the nearest known name, or "" if
-// all are known. `arguments` are those after the program's name.
+// Returns a message about a missing verb, or the first verb or option that is unknown (with the
+// nearest known name), lacks its value or is repeated, or "". `arguments` are those after the
+// program's name.
 std::string find_usage_error(const std::vector<std::string>& arguments, const CLI::App& program);
 
 }  // namespace mien::app

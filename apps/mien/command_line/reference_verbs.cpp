@@ -6,6 +6,7 @@
 
 #include "apps/mien/command_line/completions.h"
 #include "apps/mien/command_line/manual.h"
+#include "apps/mien/command_line/option_values.h"
 #include "apps/mien/command_line/verbs.h"
 
 namespace mien::app {
@@ -15,7 +16,7 @@ void add_completion(CLI::App& program) {
   auto shell = std::make_shared<std::string>();
   verb->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->transform(one_of<std::string>({{"bash", "bash"}, {"zsh", "zsh"}, {"fish", "fish"}}));
   verb->callback([shell, &program] {
     const std::vector<VerbText> verbs = verbs_of(program);
     const std::string text = *shell == "bash"  ? bash_completion(verbs)

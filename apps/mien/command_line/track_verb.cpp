@@ -4,11 +4,10 @@
 #include <mien/mien.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "apps/mien/command_line/animation_options.h"
-#include "apps/mien/command_line/finite_number.h"
+#include "apps/mien/command_line/option_values.h"
 #include "apps/mien/command_line/tracker_options.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
@@ -42,7 +41,7 @@ void add_files(CLI::App& verb, TrackOptions& options) {
                   "page with the clip, an animated face, curves and all exports (.html)");
   verb.add_option("--report-clip-mb", options.report_clip_mb,
                   "a larger clip is stored beside the report (default 64)")
-      ->check(finite(CLI::NonNegativeNumber));
+      ->check(non_negative_number());
 }
 
 void add_audio(CLI::App& verb, TrackOptions& options) {
@@ -50,11 +49,11 @@ void add_audio(CLI::App& verb, TrackOptions& options) {
                   "audio from another file than INPUT, or - for WAV on standard input");
   verb.add_option("--mode", options.mode,
                   "use video and audio (av), video or audio (default: everything available)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Mode>{
-          {"av", Mode::kBoth}, {"video", Mode::kVideo}, {"audio", Mode::kAudio}}));
+      ->transform(
+          one_of<Mode>({{"av", Mode::kBoth}, {"video", Mode::kVideo}, {"audio", Mode::kAudio}}));
   verb.add_option("--av-offset-ms", options.av_offset_ms,
                   "the audio belongs to video that is this much later; negative: earlier")
-      ->check(finite(CLI::Range(-10000.0, 10000.0)));
+      ->check(number_from(-10000.0, 10000.0));
   add_voice_strength(verb, options);
   add_field_of_view(verb, options);
   verb.add_option("--stats", options.stats, "counts and stage times as JSON");
@@ -67,7 +66,7 @@ void add_tracking(CLI::App& verb, TrackOptions& options) {
   verb.add_option("--neutral", options.neutral, "neutral calibration, written by `mien neutral`");
   verb.add_option("--max-faces", options.max_faces,
                   "faces tracked at a time, 1 to 8, each with an id (default 1)")
-      ->check(CLI::Range(1, MIEN_MAX_FACES));
+      ->check(integer_from(1, MIEN_MAX_FACES));
   verb.add_flag("--no-backward", options.forward_only,
                 "leave the frames before a detection empty; otherwise the face is tracked backward "
                 "from it, through up to 3 seconds");
@@ -79,14 +78,14 @@ void add_tracking(CLI::App& verb, TrackOptions& options) {
 void add_part(CLI::App& verb, TrackOptions& options) {
   verb.add_option("--audio-track", options.audio_track,
                   "number of the audio track; the first is 1 (default)")
-      ->check(CLI::Range(1, 1000));
+      ->check(integer_from(1, 1000));
   verb.add_option("--rotate", options.rotation,
                   "clockwise rotation in degrees that makes the video upright; overrides the file")
-      ->check(CLI::IsMember({0, 90, 180, 270}));
+      ->transform(one_of<int>({{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}}));
   verb.add_option("--start", options.start_s, "start of the part to track, in seconds")
-      ->check(finite(CLI::NonNegativeNumber));
+      ->check(non_negative_number());
   verb.add_option("--duration", options.duration_s, "length of the part to track, in seconds")
-      ->check(finite(CLI::PositiveNumber));
+      ->check(positive_number());
   verb.add_flag("--quiet", options.quiet, "no progress bar, no summary");
 }
 
@@ -94,7 +93,7 @@ void add_batch(CLI::App& verb, BatchOptions& batch) {
   auto* out = verb.add_option("--out", batch.out, "folder for the outputs; INPUT is a folder");
   verb.add_option("--jobs", batch.jobs,
                   "files of a folder to process at a time (default: one per core)")
-      ->check(CLI::Range(1, 256))
+      ->check(integer_from(1, 256))
       ->needs(out);
   verb.add_flag("--reports", batch.reports, "write a report for each file of the folder as well")
       ->needs(out);

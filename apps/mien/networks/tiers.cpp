@@ -22,9 +22,11 @@ std::uint32_t cpu_mask(const std::string& name, bool unfused) {
   if (name.empty()) {
     return (MIEN_CPU_ALL & ~MIEN_CPU_FUSED) | fused;
   }
+  std::string names;
   for (std::uint32_t tier = 1; tier != 0; tier <<= 1) {
     const char* known = mien_cpu_tier_name(tier);
     if (known == nullptr || name != known) {
+      names.append(known == nullptr ? "" : " ").append(known == nullptr ? "" : known);
       continue;
     }
     if ((mien_cpu_tiers() & tier) == 0) {
@@ -33,7 +35,8 @@ std::uint32_t cpu_mask(const std::string& name, bool unfused) {
     }
     return tier | below(tier) | fused;
   }
-  throw Failure(kExitUsage, "--tier: unknown tier '" + name + "'");
+  throw Failure(kExitUsage,
+                "--tier: unknown tier (got '" + name + "', expected one of" + names + ")");
 }
 
 }  // namespace mien::app

@@ -98,14 +98,12 @@ bool changes_text_direction(std::uint32_t code) {
          code == 0x200E || code == 0x200F || code == 0x2028 || code == 0x2029;
 }
 
-std::string escaped(std::string_view text, bool lines) {
+std::string escaped(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const Character next = utf8(text);
     std::array<char, 12> code{};
-    if (next.valid && lines && next.code == '\n') {
-      result += '\n';
-    } else if (!next.valid || is_control(next.code)) {
+    if (!next.valid || is_control(next.code)) {
       std::snprintf(code.data(), code.size(), "\\x%02x", static_cast<unsigned>(next.code));
       result += code.data();
     } else if (changes_text_direction(next.code)) {
@@ -134,10 +132,6 @@ std::string without_credentials(std::string_view text) {
   return result.append(text);
 }
 
-std::string printable(std::string_view text) { return escaped(without_credentials(text), false); }
-
-std::string printable_lines(std::string_view text) {
-  return escaped(without_credentials(text), true);
-}
+std::string printable(std::string_view text) { return escaped(without_credentials(text)); }
 
 }  // namespace mien::app

@@ -12,7 +12,5 @@ namespace mien::app {
 // Removes credentials and returns one line. Control characters, characters that change the text
 // direction, and invalid UTF-8 become "\x1b" or "\u202e".
 [[nodiscard]] std::string printable(std::string_view text);
-// The same for text with several lines.
-[[nodiscard]] std::string printable_lines(std::string_view text);
 
 }  // namespace mien::app
