@@ -16,4 +16,11 @@ mcs -warnaserror -warn:4 -r:"$out/Mien.dll" -out:"$out/tests.exe" bindings/cshar
 mcs -warnaserror -warn:4 -nowarn:649 -target:library -r:"$out/Mien.dll" -out:"$out/Webcam.dll" bindings/csharp/Samples~/Webcam/*.cs bindings/csharp/Tests/Unity/*.cs
 export LD_LIBRARY_PATH=$MIEN_LIBRARY_DIR
 mono "$out/tests.exe"
+
+# The assembly that Unity compiles for Android loads the library of the AAR.
+mkdir -p "$out/android"
+mcs -define:UNITY_ANDROID -target:library -out:"$out/android/Mien.dll" bindings/csharp/Runtime/*.cs
+cp "$out/tests.exe" "$out/android/"
+cp -L "$MIEN_LIBRARY_DIR/libmien.so" "$out/android/libmien_jni.so"
+LD_LIBRARY_PATH=$out/android mono "$out/android/tests.exe"
 tests/docs/paths_test.py csharp

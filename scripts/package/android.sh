@@ -45,7 +45,7 @@ link() {  # ABI
       -I"$lib/libcxx/src" "$lib/libcxx/src/$name.cpp"
   done
   "$MIEN_ZIG" build-lib "$lib/compiler_rt.zig" -target "${zig_targets[$1]}" -O ReleaseSmall -fPIC -femit-bin="$work/compiler_rt.a" --name compiler_rt
-  local objects=("$work"/{jni,new,new_helpers,new_handler}.o "$library" "$work/compiler_rt.a")
+  local objects=("$work"/{jni,new,new_helpers,new_handler}.o --whole-archive "$library" --no-whole-archive "$work/compiler_rt.a")
   local options=(-shared --gc-sections -z max-page-size=16384 -z relro -z now -z noexecstack)
   ld.lld "${options[@]}" --unresolved-symbols=ignore-all -o "$work/unresolved.so" "${objects[@]}"
   llvm-nm -D --undefined-only -j "$work/unresolved.so" | sed 's/@.*//' | sort -u >"$work/imports"

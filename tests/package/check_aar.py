@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+from pathlib import Path
 from xml.etree import ElementTree
 
 # ABI: class and machine of the ELF file, by the names of binutils.
@@ -19,6 +20,8 @@ MODULE = "prefab/modules/mien"
 NEEDED = {"libc.so", "libm.so", "libdl.so", "liblog.so"}
 PAGE = 0x4000
 MINIMUM_API = 28
+NATIVE = Path(__file__).resolve().parents[2] / "bindings/csharp/Runtime/Native.cs"
+IMPORTED_BY_UNITY = re.findall(r"\[DllImport.* (mien_\w+)\(", NATIVE.read_text())
 
 
 class Invalid(Exception):
@@ -41,7 +44,7 @@ def check_library(name, data, abi):
     with tempfile.NamedTemporaryFile() as file:
         file.write(data)
         file.flush()
-        done = subprocess.run(["readelf", "-hldW", file.name], env={**os.environ, "LC_ALL": "C"}, capture_output=True, text=True)
+        done = subprocess.run(["readelf", "-hldW", "--dyn-syms", file.name], env={**os.environ, "LC_ALL": "C"}, capture_output=True, text=True)
     require(done.returncode == 0, f"{name}: not an ELF file")
     found = tuple(re.search(rf"^ *{field}: +(.*)$", done.stdout, re.M)[1] for field in ("Class", "Machine"))
     require(found == ABIS[abi], f"{name}: wrong machine (got {found}, expected {ABIS[abi]})")
@@ -49,8 +52,10 @@ def check_library(name, data, abi):
     require(alignments and all(int(n, 16) % PAGE == 0 for n in alignments), f"{name}: segments not aligned to 16 KB")
     needed = set(re.findall(r"\(NEEDED\).*\[(.*)\]", done.stdout))
     require(needed <= NEEDED, f"{name}: libraries: got {sorted(needed)}, expected some of {sorted(NEEDED)}")
-    for symbol in (b"Java_org_mien_Native_", b"mien_tracker_create"):
-        require(symbol in data, f"{name}: no exported {symbol.decode()}")
+    exported = set(re.findall(r" GLOBAL +DEFAULT +\d+ (\w+)", done.stdout))
+    require(any(symbol.startswith("Java_org_mien_Native_") for symbol in exported), f"{name}: no function of org.mien.Native")
+    missing = sorted(set(IMPORTED_BY_UNITY) - exported)
+    require(not missing, f"{name}: no {', '.join(missing)}, which bindings/csharp imports")
 
 
 def check(path, abis):

@@ -21,7 +21,7 @@ import check_xcframework  # noqa: E402
 import sbom  # noqa: E402
 import sizes  # noqa: E402
 
-SYMBOLS = "void Java_org_mien_Native_create(void) {}\nvoid mien_tracker_create(void) {}\n"
+SYMBOLS = "".join(f"void {name}(void) {{}}\n" for name in ("Java_org_mien_Native_create", *check_aar.IMPORTED_BY_UNITY))
 LIBTOOL = sorted(pathlib.Path("/usr/lib").glob("llvm-*/bin/llvm-libtool-darwin"))
 
 
@@ -36,8 +36,8 @@ class Folder(unittest.TestCase):
 
 @unittest.skipUnless(shutil.which("clang") and shutil.which("ld.lld"), "clang and lld are missing")
 class Aar(Folder):
-    def library(self, page_size=16384, libraries=("libc.so",), target="aarch64-linux-android28"):
-        (self.folder / "a.c").write_text(SYMBOLS)
+    def library(self, page_size=16384, libraries=("libc.so",), target="aarch64-linux-android28", symbols=SYMBOLS):
+        (self.folder / "a.c").write_text(symbols)
         for name, source in (("a", "a.c"), ("empty", "/dev/null")):
             self.run_tool("clang", "-target", target, "-x", "c", "-fPIC", "-c", source, "-o", f"{name}.o")
         for name in libraries:
@@ -81,6 +81,11 @@ class Aar(Folder):
     def test_wrong_machine(self):
         with self.assertRaisesRegex(check_aar.Invalid, "wrong machine"):
             self.check(self.library(target="x86_64-linux-android28"))
+
+    def test_function_that_unity_imports_and_the_library_hides(self):
+        hidden = SYMBOLS.replace("void mien_tracker_create(", "static void mien_tracker_create(")
+        with self.assertRaisesRegex(check_aar.Invalid, "no mien_tracker_create, which"):
+            self.check(self.library(symbols=hidden))
 
     def test_unknown_field(self):
         with self.assertRaisesRegex(check_aar.Invalid, "module.json"):

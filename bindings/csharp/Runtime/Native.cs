@@ -8,6 +8,8 @@ namespace Mien
     {
 #if UNITY_IOS && !UNITY_EDITOR
         const string Library = "__Internal";
+#elif UNITY_ANDROID && !UNITY_EDITOR
+        const string Library = "mien_jni";  // the library in the AAR, which exports the C API as well
 #else
         const string Library = "mien";
 #endif
