@@ -18,6 +18,15 @@ class BlendShapesTest
             Names("Face.M_F.jawOpen", "mouthSmile_L", "head:MouthSmileRight", "Body|EYE_BLINK_L", "Custom"));
     }
 
+    public void APrefixBeforeAnUnderscoreIsSharedByThreeNames()
+    {
+        Assert.Equal("Arkit.jawOpen Arkit.mouthSmileLeft Arkit.eyeBlinkLeft - -",
+            Names("Head_jawOpen", "Head_mouthSmile_L", "Head_EyeBlinkLeft", "Head_Custom", "Teeth_jawOpen"));
+        Assert.Equal("Arkit.jawOpen Arkit.mouthFunnel Arkit.eyeBlinkLeft Arkit.jawLeft",
+            Names("My_Head_jawOpen", "My_Head_mouthFunnel", "My_Head_eyeBlinkLeft", "jawLeft"));
+        Assert.Equal("- - Arkit.eyeBlinkLeft", Names("Head_jawOpen", "Head_mouthFunnel", "eyeBlinkLeft"));
+    }
+
     public void FindsNamesOfRoblox()
     {
         Assert.Equal("Roblox.JawDrop Roblox.LeftEyeClosed", Names("JawDrop", "LeftEyeClosed"));
