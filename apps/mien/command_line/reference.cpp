@@ -206,8 +206,9 @@ std::string option_error(std::span<const std::string> arguments, const CLI::App&
     if (lacks_value(*option, arguments.subspan(i))) {
       return name + ": value missing (expected " + option->get_option_text() + ")";
     }
-    if (!seen.insert(option).second &&
-        option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw) {
+    const bool single = option->get_items_expected_max() == 1 &&
+                        option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
+    if (!seen.insert(option).second && single) {
       return name + ": may be given only once";
     }
   }
