@@ -38,6 +38,7 @@ step public_models env PYTHONPATH=apps/convert /usr/bin/python3 tests/convert/pu
 step killed_training env PYTHONPATH=models/training:apps/convert /usr/bin/python3 tests/train/killed_training_test.py
 step worst_frame scripts/measure/worst_frame.sh
 step blender tests/blender/bpy_test.sh build/release/apps/mien/mien
+step live_page /usr/bin/python3 tests/apps/live_page_latency.py build/release/apps/mien/mien . 600
 step soak scripts/measure/soak.sh
 step memcheck scripts/valgrind.sh 3
 step realtime scripts/rtsan.sh

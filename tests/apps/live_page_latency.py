@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Measures how much later a client of `mien live --page` gets a frame than a receiver of --send, and the memory of the
-program. Three clients read events and one reads previews, as a page and two OBS sources do. Prints JSON.
+program. Three clients read events and one reads previews, as a page and two OBS sources do. Prints JSON; the exit status
+is 1 if a limit is exceeded.
 
 usage: live_page_latency.py MIEN_PROGRAM SOURCE_FOLDER SECONDS
 """
@@ -18,6 +19,8 @@ from live_page import Live, long_clip
 EVENT_CLIENTS = 3
 PREVIEW_PAUSE_S = 0.05
 WARM_UP_S = 20
+MAX_MEDIAN_MS = 20
+MAX_GROWTH_MB = 1
 
 
 def resident_mb(process):
@@ -70,6 +73,16 @@ def measure(live, receiver, seconds):
             "resident_mb": {"after_warm_up": memory[0], "most": max(memory), "at_the_end": memory[-1]}}
 
 
+def exceeded(result):
+    """The limits that the result exceeds."""
+    median, memory = result["added_latency_ms"]["median"], result["resident_mb"]
+    growth = memory["at_the_end"] - memory["after_warm_up"]
+    if median > MAX_MEDIAN_MS:
+        yield f"median added latency: {median} ms, limit {MAX_MEDIAN_MS} ms"
+    if growth > MAX_GROWTH_MB:
+        yield f"growth of memory: {growth:.2f} MB, limit {MAX_GROWTH_MB} MB"
+
+
 def main(seconds):
     with tempfile.TemporaryDirectory() as folder, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
@@ -79,10 +92,12 @@ def main(seconds):
             previews = threading.Thread(target=read_previews, args=(live, stop))
             previews.start()
             try:
-                print(json.dumps(measure(live, receiver, seconds), indent=1))
+                result = measure(live, receiver, seconds)
             finally:
                 stop.set()
                 previews.join()
+    print(json.dumps(result))
+    sys.exit("; ".join(exceeded(result)) or 0)
 
 
 if __name__ == "__main__":
