@@ -10,6 +10,9 @@
 #   conformance   mien-VERSION-conformance-SYSTEM.tar.gz for macOS, Windows and Android (built by Zig from PyPI)
 #   static        mien-VERSION-linux-x64-static.tar.gz, the program in one file, with musl and the weights inside (Zig)
 #   windows       mien-VERSION-windows-x64.zip, a folder that runs from anywhere (Zig)
+#   wheels        Python wheels for other systems (Zig)
+#   android       mien-VERSION.aar (Zig, Java)
+#   apple         mien-VERSION.xcframework.zip (Zig)
 # and an SBOM of these files, mien-VERSION.spdx.json, and SHA256SUMS.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -24,7 +27,7 @@ while [[ "${1:-}" == -D* ]]; do
   shift
 done
 parts=("$@")
-[ $# -gt 0 ] || parts=(source amalgamation binary deb wheel npm conformance static windows)
+[ $# -gt 0 ] || parts=(source amalgamation binary deb wheel npm conformance static windows wheels android apple)
 
 version=$(sed -n 's/^project(mien VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 [ -z "$(git status --porcelain)" ] || { echo "release.sh: there are changes that HEAD does not have" >&2; exit 1; }
@@ -41,6 +44,12 @@ build=$PWD/build/release-build
 packed() {  # FOLDER NAME: NAME.tar.gz of the content of the folder, under NAME/
   tar --create --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --transform="s,^\.,$2," \
     -C "$1" . | gzip -n9 >"$out/$2.tar.gz"
+}
+
+zipped() {  # FOLDER FILE NAME...: a zip file of these names in the folder
+  find "$1" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
+  rm -f "$2"
+  (cd "$1" && find "${@:3}" -type f | sed "s,^\./,," | sort | xargs cmake -E tar cf "$2" --format=zip --)
 }
 
 built() {
@@ -81,7 +90,7 @@ make_wheel() {
   "$build-python/bin/pip" install --quiet --quiet --disable-pip-version-check --require-hashes -r scripts/package/wheel_requirements.txt ||
     { echo "SKIPPED: the wheel: PyPI cannot be reached"; return 0; }
   "$build-python/bin/python" -m build --no-isolation --wheel --outdir "$out" bindings/python >"$build-python/log" 2>&1 || { cat "$build-python/log" >&2; return 1; }
-  "$build-python/bin/python" scripts/package/shrink_wheel.py "$out/mien-$version"-*.whl
+  "$build-python/bin/python" scripts/package/shrink_wheel.py "$out/mien-$version"-py3-none-linux_*.whl
 }
 
 make_npm() {
@@ -154,9 +163,32 @@ make_windows() {
   cp "$ZIG_BUILD/windows-x64/apps/mien/mien.exe" LICENSE apps/third_party.txt "$folder"
   cp models/*.mien "$folder/models"
   cp scripts/package/windows.txt "$folder/README.txt"
-  find "$folder" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
-  rm -f "$out/$name.zip"
-  (cd "$build-windows" && find "$name" -type f | sort | xargs cmake -E tar cf "$out/$name.zip" --format=zip --)
+  zipped "$build-windows" "$out/$name.zip" "$name"
+}
+
+make_wheels() {
+  with_zig "wheels for other systems" || return 0
+  rm -rf "$build-wheels"
+  (unset CFLAGS CXXFLAGS && scripts/package/wheels.sh -o "$build-wheels" >/dev/null)
+  cp "$build-wheels"/*.whl "$out"
+}
+
+make_android() {
+  with_zig "the AAR" || return 0
+  (unset CFLAGS CXXFLAGS && scripts/package/android.sh >/dev/null)
+  local folder=$build-android  # packed again without the times of jar
+  rm -rf "$folder"
+  mkdir -p "$folder/aar" "$folder/classes"
+  (cd "$folder/aar" && cmake -E tar xf "$OLDPWD/build/android/mien.aar")
+  (cd "$folder/classes" && cmake -E tar xf "$folder/aar/classes.jar")
+  zipped "$folder/classes" "$folder/aar/classes.jar" .
+  zipped "$folder/aar" "$out/mien-$version.aar" .
+}
+
+make_apple() {
+  with_zig "the XCFramework" || return 0
+  (unset CFLAGS CXXFLAGS && scripts/package/xcframework.sh >/dev/null)
+  zipped "$PWD/build/apple" "$out/mien-$version.xcframework.zip" Mien.xcframework
 }
 
 for part in "${parts[@]}"; do
