@@ -85,3 +85,4 @@ sed 's|"\.\./\.\./\.\./tests|"tests|' $examples/plot.ipynb |
     >"$work/plot.py"
 MPLBACKEND=agg "$environment/bin/python" "$work/plot.py"
 echo "the examples ran"
+tests/docs/paths_test.py python

@@ -1,7 +1,14 @@
 #!/usr/bin/env bash
 # Builds the npm package of bindings/js with module and weights, installs it in another folder, and uses it there.
-# usage: scripts/package/npm.sh      the package is build/npm/mien-VERSION.tgz
+# usage: scripts/package/npm.sh [FOLDER]      the package is build/npm/mien-VERSION.tgz; FOLDER: your project, default a temporary folder
 set -euo pipefail
+if [ $# -gt 0 ]; then
+  mkdir -p "$1"
+  user=$(realpath "$1")
+else
+  user=$(mktemp -d)
+  trap 'rm -rf "$user"' EXIT
+fi
 cd "$(dirname "$0")/../.."
 scripts/web.sh build
 
@@ -11,16 +18,14 @@ cp bindings/js/*.js bindings/js/mien.d.ts bindings/js/package.json bindings/js/R
 cp models/*.mien build/npm/package/models
 (cd build/npm && npm pack --silent ./package)
 
-user=$(mktemp -d)
-trap 'rm -rf "$user"' EXIT
 package=$(echo "$PWD"/build/npm/mien-*.tgz)
-(cd "$user" && npm init -y >/dev/null && npm install --silent --no-audit --no-fund --offline "$package")
-cat > "$user/use.mjs" <<'USE'
+cd "$user"
+[ -e package.json ] || npm init -y >/dev/null
+npm install --silent --no-audit --no-fund --offline "$package"
+node --input-type=module --eval "
 import {createTracker} from 'mien';
 const tracker = await createTracker();
 const {status} = await tracker.track({width: 64, height: 64, data: new Uint8Array(64 * 64 * 4)});
 if (status !== 'searching') throw new Error('a black image has no face');
-console.log(`mien ${tracker.mien.version} works from its package`);
-USE
-node "$user/use.mjs"
+console.log('mien ' + tracker.mien.version + ' works from its package');"
 echo "$package: $(stat -c %s "$package") bytes"

@@ -26,17 +26,10 @@ CXX=/nowhere find_package c
 echo "== find_package, C++ without exceptions and RTTI"
 find_package cpp "-fno-exceptions -fno-rtti"
 
-echo "== the README's example in C"
+echo "== the CMake project of apps/examples/README.md"
 mkdir "$work/readme"
-"$consumers/../docs/code_blocks.py" README.md c >"$work/readme/app.c"
-cat >"$work/readme/CMakeLists.txt" <<'CMAKE'
-cmake_minimum_required(VERSION 3.22)
-project(readme LANGUAGES C)
-find_package(mien REQUIRED)
-add_executable(app app.c)
-target_link_libraries(app mien::mien)
-mien_embed(app basenet proposal)
-CMAKE
+"$consumers/../docs/code_blocks.py" apps/examples/README.md c >"$work/readme/app.c"
+"$consumers/../docs/code_blocks.py" apps/examples/README.md cmake >"$work/readme/CMakeLists.txt"
 cmake -S "$work/readme" -B "$work/readme/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_FLAGS="$FLAGS" --no-warn-unused-cli
 cmake --build "$work/readme/build"
 ffmpeg -v error -i "$consumers/../data/demo.mp4" -frames:v 20 -s 640x480 -pix_fmt rgb24 -f rawvideo "$work/readme/video"
