@@ -1,7 +1,7 @@
 // Runs the examples for Node of the READMEs and of apps/examples in a project that has installed the package.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {copyFileSync, cpSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync} from 'node:fs';
+import {copyFileSync, cpSync, mkdtempSync, openSync, rmSync, symlinkSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
@@ -29,7 +29,7 @@ const codeBlocks = (...page) => execFileSync(join(root, 'tests/docs/code_blocks.
 for (const [page, ...block] of [['README.md', 'js', '1'], ['bindings/js/README.md', 'js', '2']]) {
   test(`the example of ${page} tracks the face of an image`, () => {
     writeFileSync(join(project, 'example.mjs'), codeBlocks(page, ...block));
-    const output = execFileSync(process.execPath, ['example.mjs'], {cwd: project, encoding: 'utf8', input: readFileSync(join(project, 'face.rgba'))});
+    const output = execFileSync(process.execPath, ['example.mjs'], {cwd: project, encoding: 'utf8', stdio: [openSync(join(project, 'face.rgba')), 'pipe', 'inherit']});
     assert.match(output, /^tracking jawOpen [01](\.\d+)?(e-\d+)?( -?\d\S*)?\n$/);
   });
 }
