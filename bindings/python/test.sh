@@ -72,7 +72,8 @@ fi
 grep -q "^4 passed" "$work/draw.txt"
 run_blocks "$environment" bindings/python/README.md python 2 | grep "^0\.[3-6]" >/dev/null
 test -s "$work/readme/drawn.png"
-run_blocks "$environment" docs/mediapipe.md python 1 2 >"$work/mediapipe.txt"
+# Block 1 is MediaPipe's program, whose model and package are not installed here.
+run_blocks "$environment" docs/mediapipe.md python 2 3 >"$work/mediapipe.txt"
 [ "$(grep -c "^0\.[0-9]" "$work/mediapipe.txt")" -gt 200 ]
 examples=apps/examples/python
 "$environment/bin/python" $examples/jaw_open.py "$work/readme/face.jpg" | grep "^jawOpen 0\.[3-6]" >/dev/null
