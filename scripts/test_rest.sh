@@ -61,7 +61,7 @@ part() {  # minutes that it takes two processors without caches, name, command
   echo "== $2 took $((SECONDS - began)) s"
 }
 part 1 "supply chain" scripts/check/supply_chain.sh
-part 2 "Python binding" bindings/python/test.sh
+part 5 "Python binding" bindings/python/test.sh
 part 1 Rust binding rust rust
 part 1 "C#" binding csharp csharp
 part 1 Java binding android java
@@ -72,7 +72,7 @@ part 1 Python scripts/check/python.sh
 part 1 "batches on a cluster" cluster
 part 1 "binary interface" scripts/check/abi.sh
 part 2 threads threads
-part 3 "the library inside other projects" packages
+part 8 "the library inside other projects" packages
 part 16 linters linters
 part 5 "Release with clang" clang
 part 5 "uninitialized memory" scripts/msan.sh
