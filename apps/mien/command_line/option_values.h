@@ -49,7 +49,7 @@ inline CLI::Validator integer_from(int min, int max) {
                      [min, max](int value) { return value >= min && value <= max; });
 }
 
-// One of several words, each of which stands for a value.
+// Accepts the given words only, and replaces each with its value.
 template <typename Value>
 CLI::Validator one_of(const std::vector<std::pair<std::string, Value>>& values) {
   std::string expected;

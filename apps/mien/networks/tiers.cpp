@@ -25,8 +25,11 @@ std::uint32_t cpu_mask(const std::string& name, bool unfused) {
   std::string names;
   for (std::uint32_t tier = 1; tier != 0; tier <<= 1) {
     const char* known = mien_cpu_tier_name(tier);
-    if (known == nullptr || name != known) {
-      names.append(known == nullptr ? "" : " ").append(known == nullptr ? "" : known);
+    if (known == nullptr) {
+      continue;
+    }
+    if (name != known) {
+      names.append(" ").append(known);
       continue;
     }
     if ((mien_cpu_tiers() & tier) == 0) {
