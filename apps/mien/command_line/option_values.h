@@ -1,4 +1,4 @@
-// Checks of option values. Their errors name the value and what is expected; those of CLI11 print
+// Checks of option values. Their errors name the value and the expected ones; those of CLI11 print
 // internal values, and its limits let NaN pass, which is neither below nor above one.
 #pragma once
 
