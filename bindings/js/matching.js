@@ -46,7 +46,7 @@ function foundShort(names, drivers) {
 }
 
 /**
- * Drivers by the names of morph targets, as mien_vocabulary_match finds them, and behind shared prefixes. Visemes and VRM's vowels move the mouth if no
+ * Drivers by the names of morph targets, as mien_vocabulary_match finds them. Visemes and VRM's vowels move the mouth if no
  * name of ARKit or Roblox does.
  */
 export function morphDrivers(names) {

@@ -9,14 +9,17 @@
 
 namespace mien::formats {
 
+// What follows the last dot, colon or bar.
+inline std::string_view without_path(std::string_view name) {
+  return name.substr(name.find_last_of(".:|") + 1);
+}
+
 // The letters and digits of a name in lower case, with sides spelled out (_L is left), and without
 // what precedes a dot, colon or bar.
 class PlainName {
  public:
   explicit PlainName(std::string_view name) {
-    if (const std::size_t mark = name.find_last_of(".:|"); mark != std::string_view::npos) {
-      name.remove_prefix(mark + 1);
-    }
+    name = without_path(name);
     std::string_view side;
     if (name.size() > 1 && name[name.size() - 2] == '_') {
       const char last = to_lower(name.back());

@@ -376,9 +376,10 @@ MIEN_API uint64_t mien_vocabulary_supported(int32_t vocabulary, uint64_t support
  *
  *  Names of ARKit, Roblox, visemes and VRM are found, also as Ready Player Me, VRChat and VRoid
  *  spell them: letters and digits after the last dot, colon or bar count, in upper or lower case,
- *  and _L and _R at the end mean left and right. Visemes and names of VRM are only used if no
- *  target opens the jaw by a name of ARKit or Roblox, and if the targets have at least 3 of them:
- *  those of the vocabulary that has most.
+ *  and _L and _R at the end mean left and right. A prefix before an underscore, as in
+ *  Head_jawOpen, is skipped if at least 3 different names follow it. Visemes and names of VRM are
+ *  only used if no target opens the jaw by a name of ARKit or Roblox, and if the targets have at
+ *  least 3 of them: those of the vocabulary that has most.
  *
  *  @param[in]  names         [count], UTF-8: of all morph targets of the avatar
  *  @param      count         number of names, 0 or more

@@ -85,6 +85,26 @@ TEST(VocabularyMatch, FindsTargetsOfVroid) {
             (Names{"vrm0 A", "vrm0 Joy", "vrm0 Blink_R", "-"}));
 }
 
+TEST(VocabularyMatch, SkipsPrefixesThatThreeNamesShare) {
+  EXPECT_EQ(matches({"Body.Head_jawOpen", "Body.Head_mouthSmile_L", "Tongue.Head_EyeBlinkLeft",
+                     "Head_Custom", "Teeth_jawOpen", "cheekPuff"}),
+            (Names{"arkit jawOpen", "arkit mouthSmileLeft", "arkit eyeBlinkLeft", "-", "-",
+                   "arkit cheekPuff"}));
+  EXPECT_EQ(matches({"LOD0_My_Head_jawOpen", "LOD0_My_Head_JawDrop", "LOD0_My_Head_jawLeft"}),
+            (Names{"arkit jawOpen", "roblox JawDrop", "arkit jawLeft"}));
+  EXPECT_EQ(matches({"Head_jawOpen", "Head_jawopen", "Head_mouthFunnel", "Hat_jawLeft"}),
+            (Names{"-", "-", "-", "-"}));
+}
+
+TEST(VocabularyMatch, SkipsPrefixesOfVisemesAndVowels) {
+  EXPECT_EQ(matches({"Head_viseme_aa", "Head_viseme_I", "Head_viseme_PP"}),
+            (Names{"visemes aa", "visemes ih", "visemes PP"}));
+  EXPECT_EQ(matches({"Mouth_A", "Mouth_I", "Mouth_U", "Mouth_wide"}),
+            (Names{"vrm0 A", "vrm0 I", "vrm0 U", "-"}));
+  EXPECT_EQ(matches({"Fcl_MTH_A", "Fcl_MTH_I", "Fcl_MTH_U", "Fcl_MTH_Joy"}),
+            (Names{"vrm0 A", "vrm0 I", "vrm0 U", "-"}));
+}
+
 TEST(VocabularyMatch, VisemesMoveOnlyAMouthWithoutAJaw) {
   const Names visemes = {"viseme_aa", "viseme_I", "viseme_PP"};
   for (const char* jaw : {"jawOpen", "JawDrop"}) {
@@ -110,7 +130,8 @@ TEST(VocabularyMatch, UsesTheVocabularyWithMostNames) {
 }
 
 TEST(VocabularyMatch, AcceptsLongNamesAndNone) {
-  EXPECT_EQ(matches({std::string(100000, 'a'), "jawOpen"}), (Names{"-", "arkit jawOpen"}));
+  EXPECT_EQ(matches({std::string(100000, 'a'), std::string(100000, '_'), "jawOpen"}),
+            (Names{"-", "-", "arkit jawOpen"}));
   EXPECT_EQ(mien_vocabulary_match(nullptr, 0, nullptr, nullptr), MIEN_OK);
 }
 
