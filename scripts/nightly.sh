@@ -25,6 +25,7 @@ printf '# %s, %s\n\n| what | command | outcome | seconds | its last line |\n|---
 step tests scripts/test.sh --all
 step other_machines scripts/cross/all.sh --full
 step other_compilers scripts/cross/compilers.sh
+step swift scripts/cross/swift.sh
 step wheels scripts/package/wheels.sh
 step sizes scripts/package/sizes.py --check
 step android_package scripts/package/android.sh

@@ -65,7 +65,7 @@ part 5 "Python binding" bindings/python/test.sh
 part 1 Rust binding rust rust
 part 1 "C#" binding csharp csharp
 part 1 Java binding android java
-part 1 Swift bindings/swift/test.sh  # Debian has no Swift compiler. JavaScript: see the page
+part 1 Swift bindings/swift/test.sh  # whole in scripts/cross/swift.sh. JavaScript: see the page
 part 1 documentation scripts/site.sh
 part 1 words scripts/check/words.sh
 part 1 Python scripts/check/python.sh

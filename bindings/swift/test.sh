@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# With a Swift toolchain: builds the package and runs its tests. Otherwise clang imports its module, and a message lists the untested rest.
+# With a Swift toolchain: builds the package, and runs its tests and the README's example. Otherwise clang imports its module, and a message lists the untested rest.
 # usage: bindings/swift/test.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 bindings/swift/prepare.sh
 if command -v swift >/dev/null && swift --version >/dev/null 2>&1; then
   . bindings/library.sh
-  cd bindings/swift && exec swift test -c release --scratch-path ../../build/bindings/swift
+  (cd bindings/swift && swift test -c release --scratch-path ../../build/bindings/swift)
+  swiftc -parse bindings/swift/Examples/CameraFace.swift
+  exec tests/docs/paths_test.py swift
 fi
 if ! command -v clang >/dev/null; then
   echo "NOT TESTED: bindings/swift: neither Swift nor clang is installed (scripts/setup.sh test)"
@@ -26,4 +28,4 @@ echo "clang imports CMien"
 grep -rhoE '\bmien_[a-z_]+\(' bindings/swift/Sources/Mien | sort -u | while read -r call; do
   grep -qF "$call" include/mien/mien.h || [[ "$call" =~ ^mien_(image|audio|tracker_config|weights_config|error_detail|result|status)\($ ]] || { echo "no $call in mien.h" >&2; exit 1; }
 done
-echo "NOT TESTED: the Swift of bindings/swift, for which there is no compiler"
+echo "NOT TESTED: the Swift of bindings/swift, for which there is no compiler (scripts/cross/swift.sh)"

@@ -258,7 +258,9 @@ def main():
     files |= {f"mien_{tier.name}.cpp": tier_file(version, tier) for tier in TIERS}
     (folder / "mien").mkdir(parents=True, exist_ok=True)
     for name, lines in files.items():
-        (folder / name).write_text("\n".join(lines) + "\n")
+        text = "\n".join(lines) + "\n"
+        if not (folder / name).exists() or (folder / name).read_text() != text:  # compilers skip unchanged files
+            (folder / name).write_text(text)
     print(f"{folder}: {len(files)} files, {sum((folder / name).stat().st_size for name in files)} bytes")
 
 

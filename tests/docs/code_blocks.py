@@ -11,11 +11,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FENCE = re.compile(r"^ {0,3}(`{3,}|~{3,})\s*([\w+-]*)")
-NOT_RUN = {"text": "no code", "swift": "no compiler is available"}
+NOT_RUN = {"text": "no code"}
 COMMANDS_NOT_RUN = {  # by their beginning
     "scripts/test.sh": "CI and nightly tests call it",
     "build/release/apps/mien/mien live": "needs a camera; the tests of apps/mien replace it",
-    "bindings/swift/prepare.sh": "bindings/swift/test.sh calls it",
 }
 SHELL_NOT_RUN = {
     "CONTRIBUTING.md": "scripts/test.sh uses the same presets; debuggers wait for a person, and releases need a key",

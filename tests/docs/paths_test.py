@@ -49,6 +49,7 @@ PATHS = {
         {"example/Cargo.toml": ("toml", 1), "example/src/main.rs": ("rust", 1)},
         value=FIRST_COLUMN,
     ),
+    "swift": Way("bindings/swift/README.md", "swift", {"example/Package.swift": ("swift", 1), "example/Sources/example/main.swift": ("swift", 2)}),
 }
 
 
