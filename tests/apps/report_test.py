@@ -309,7 +309,7 @@ class Page(report_browser.PageTest):
     def test_themes_and_widths(self):
         papers = set()
         for dark in (False, True):
-            for width in (1280, 360):
+            for width in (360, 390, 768, 1280):
                 self.open(width=width, dark=dark)
                 self.assertLessEqual(self.js("document.documentElement.scrollWidth - innerWidth"), 0, f"{width} wide")
                 papers.add(self.js("getComputedStyle(document.body).backgroundColor"))

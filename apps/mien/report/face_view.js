@@ -91,7 +91,7 @@ class FaceView {
     const status = statusNames[this.take.column('status').at(i)] ?? 'searching';
     this.i = i;
     this.canvas.classList.toggle('absent', data.width > 0 && status !== 'tracking');
-    this.note.textContent = this.trouble || (data.width && status !== 'tracking' ? status : 'tracked face');
+    this.note.textContent = this.trouble || (data.width && status !== 'tracking' ? status : 'Tracked face');
     this.avatar?.draw(this.faceOf(i));
   }
 }
