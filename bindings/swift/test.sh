@@ -7,7 +7,10 @@ bindings/swift/prepare.sh
 if command -v swift >/dev/null && swift --version >/dev/null 2>&1; then
   . bindings/library.sh
   (cd bindings/swift && swift test -c release --scratch-path ../../build/bindings/swift)
-  swiftc -parse bindings/swift/Examples/CameraFace.swift
+  built=build/bindings/swift/release/Modules
+  [ "$(uname)" = Darwin ] || swiftc -emit-module -parse-as-library -module-name AVFoundation -emit-module-path "$built/AVFoundation.swiftmodule" \
+    bindings/swift/Tests/Declarations/AVFoundation.swift
+  swiftc -typecheck -I "$built" -I bindings/swift/Sources/CMien bindings/swift/Examples/CameraFace.swift
   exec tests/docs/paths_test.py swift
 fi
 if ! command -v clang >/dev/null; then
