@@ -22,8 +22,8 @@ struct Halves {
   static Vec clamped(Vec x, Vec low, Vec high) { return vminq_f16(vmaxq_f16(x, low), high); }
 };
 
-// N: Halves, with a Finish that writes the band at y.
-template <class N>
+// N: Halves, with a Finish that writes the band at y, whose pixels are kYPixel values apart.
+template <class N, int kYPixel>
 void depthwise_panel(const InvertedResidualArgs& a, const DepthwisePart<Half>& s,
                      const typename N::Finish& finish, typename N::Finish::Output* y) {
   const std::ptrdiff_t taps_elems = std::ptrdiff_t{a.kernel_h} * a.kernel_w * kBlock;
@@ -31,8 +31,8 @@ void depthwise_panel(const InvertedResidualArgs& a, const DepthwisePart<Half>& s
   const Taps<N> taps(a.depthwise.weights + s.block * taps_elems, both ? taps_elems : 0,
                      a.depthwise.bias + std::ptrdiff_t{s.block} * kBlock, both ? kBlock : 0,
                      finish);
-  const std::ptrdiff_t y_row = std::ptrdiff_t{a.out_w} * kPanel;
-  depthwise_rows<N, kPanel>(a, taps, {s.x, s.x_row_elems, y, y_row}, s.rows);
+  const std::ptrdiff_t y_row = std::ptrdiff_t{a.out_w} * kYPixel;
+  depthwise_rows<N, kYPixel>(a, taps, {s.x, s.x_row_elems, y, y_row}, s.rows);
 }
 
 struct HalfTier {
@@ -43,7 +43,8 @@ struct HalfTier {
     store_halves(y + kHalves, to_half(load_pair(x + (blocks > 1 ? plane : 0))));
   }
   static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<Half>& s, Half* y) {
-    depthwise_panel<Halves>(a, s, {splat_halves(s.clamp.low), splat_halves(s.clamp.high)}, y);
+    depthwise_panel<Halves, kPanel>(a, s, {splat_halves(s.clamp.low), splat_halves(s.clamp.high)},
+                                    y);
   }
   static void multiply_to_strip(const HalfProduct& product, const StripRows& to) {
     neonfp16::multiply_to_strip(product, to);
