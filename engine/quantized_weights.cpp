@@ -55,6 +55,9 @@ mien_status to_int8(const QuantizedLayer& layer, std::uint32_t cpu_mask, std::by
                     Weights& weights) {
   auto args = args_of<kernels::QuantizeToInt8Args>(layer, weights);
   args.quads = reinterpret_cast<std::int8_t*>(to);
+  // Only fused blocks have 8 bits, so some tier computes them.
+  args.panel = kernels::int8_panel(
+      kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask)->tier);
   args.scales = reinterpret_cast<float*>(to + int8_count(layer));
   args.sums = args.scales + std::ptrdiff_t{args.out_blocks} * 8;
   weights.quads = args.quads;

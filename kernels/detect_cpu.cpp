@@ -18,10 +18,12 @@ namespace mien::kernels {
 namespace {
 
 #ifdef MIEN_HAVE_NEONFP16
-// `hwcap`: a bit of the Linux kernel's asm/hwcap.h for AArch64; `sysctl`: Apple's name.
-bool has_feature([[maybe_unused]] unsigned long hwcap, [[maybe_unused]] const char* sysctl) {
+// `hwcap`: a bit of the Linux kernel's asm/hwcap.h for AArch64; `hwcap2`: of its second word;
+// `sysctl`: Apple's name.
+bool has_feature([[maybe_unused]] unsigned long hwcap, [[maybe_unused]] unsigned long hwcap2,
+                 [[maybe_unused]] const char* sysctl) {
 #if defined(__linux__)
-  return (getauxval(AT_HWCAP) & hwcap) != 0;
+  return ((getauxval(AT_HWCAP) & hwcap) | (getauxval(AT_HWCAP2) & hwcap2)) != 0;
 #elif defined(__APPLE__)
   int has = 0;
   std::size_t bytes = sizeof has;
@@ -30,11 +32,16 @@ bool has_feature([[maybe_unused]] unsigned long hwcap, [[maybe_unused]] const ch
   return false;
 #endif
 }
-bool has_neon_fp16() { return has_feature(1ul << 10, "hw.optional.arm.FEAT_FP16"); }
+bool has_neon_fp16() { return has_feature(1ul << 10, 0, "hw.optional.arm.FEAT_FP16"); }
 #endif
 #ifdef MIEN_HAVE_NEONDOT
 bool has_neon_dot() {
-  return has_neon_fp16() && has_feature(1ul << 20, "hw.optional.arm.FEAT_DotProd");
+  return has_neon_fp16() && has_feature(1ul << 20, 0, "hw.optional.arm.FEAT_DotProd");
+}
+#endif
+#ifdef MIEN_HAVE_NEONI8MM
+bool has_neon_i8mm() {
+  return has_neon_fp16() && has_feature(0, 1ul << 13, "hw.optional.arm.FEAT_I8MM");
 }
 #endif
 
@@ -73,6 +80,11 @@ std::uint32_t query_cpu() {
 #ifdef MIEN_HAVE_NEONDOT
   if (has_neon_dot()) {
     mask |= bit(Tier::kNeonDot);
+  }
+#endif
+#ifdef MIEN_HAVE_NEONI8MM
+  if (has_neon_i8mm()) {
+    mask |= bit(Tier::kNeonI8mm);
   }
 #endif
 #ifdef MIEN_HAVE_NEON32

@@ -14,6 +14,7 @@ constexpr Tier avx512 [[maybe_unused]] = Tier::kAvx512;
 constexpr Tier neon [[maybe_unused]] = Tier::kNeon;
 constexpr Tier neonfp16 [[maybe_unused]] = Tier::kNeonFp16;
 constexpr Tier neondot [[maybe_unused]] = Tier::kNeonDot;
+constexpr Tier neoni8mm [[maybe_unused]] = Tier::kNeonI8mm;
 constexpr Tier neon32 [[maybe_unused]] = Tier::kNeon32;
 constexpr Tier wasm [[maybe_unused]] = Tier::kWasm;
 constexpr Tier avx512fp16 [[maybe_unused]] = Tier::kAvx512Fp16;

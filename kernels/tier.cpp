@@ -31,6 +31,8 @@ const char* name(Tier tier) {
       return "wasmint16";
     case Tier::kNeonDot:
       return "neondot";
+    case Tier::kNeonI8mm:
+      return "neoni8mm";
   }
   return nullptr;
 }

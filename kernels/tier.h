@@ -20,8 +20,9 @@ enum class Tier : std::uint32_t {
   kAvxVnni = 10,
   kWasmInt16 = 11,
   kNeonDot = 12,
+  kNeonI8mm = 13,
 };
-inline constexpr std::uint32_t kTierCount = 13;
+inline constexpr std::uint32_t kTierCount = 14;
 
 [[nodiscard]] constexpr std::uint32_t bit(Tier tier) {
   return 1u << static_cast<std::uint32_t>(tier);
@@ -34,20 +35,25 @@ inline constexpr std::uint32_t kQuantizedTiers =
 
 // Tiers that multiply 8-bit integers there.
 inline constexpr std::uint32_t kInt8Tiers =
-    bit(Tier::kAvx512Vnni) | bit(Tier::kAvxVnni) | bit(Tier::kNeonDot);
+    bit(Tier::kAvx512Vnni) | bit(Tier::kAvxVnni) | bit(Tier::kNeonDot) | bit(Tier::kNeonI8mm);
 [[nodiscard]] constexpr bool has_int8(Tier tier) { return (kInt8Tiers & bit(tier)) != 0; }
+
+// Outputs of a panel of their weights (quantize_to_int8.h).
+[[nodiscard]] constexpr std::int32_t int8_panel(Tier tier) {
+  return tier == Tier::kNeonI8mm ? 8 : 16;
+}
 
 // Tiers that use half precision in fused blocks: fp16, where values beyond 65504 become infinite,
 // or quantized integers.
 inline constexpr std::uint32_t kHalfTiers =
-    bit(Tier::kNeonFp16) | bit(Tier::kNeonDot) | bit(Tier::kAvx512Fp16) | kQuantizedTiers;
+    bit(Tier::kNeonFp16) | bit(Tier::kAvx512Fp16) | kQuantizedTiers | kInt8Tiers;
 [[nodiscard]] constexpr bool is_half(Tier tier) { return (kHalfTiers & bit(tier)) != 0; }
 
 // The bit of the CPU mask that allows fused blocks; it is not a tier.
 inline constexpr std::uint32_t kFusedBlocks = 1u << 31;
 
 // Greater for the better of two tiers. Values are in order of publication; the half-precision tiers
-// of x86 and kNeonDot rank just above the tier that they extend. kAvx512Vnni ranks above
+// of x86, kNeonDot and kNeonI8mm rank just above the tier that they extend. kAvx512Vnni ranks above
 // kAvx512Fp16, because it is faster and more accurate on CPUs with both.
 [[nodiscard]] constexpr std::uint32_t rank(Tier tier) {
   const auto above = [](Tier base, std::uint32_t steps) {
@@ -58,6 +64,7 @@ inline constexpr std::uint32_t kFusedBlocks = 1u << 31;
          : tier == Tier::kAvx512Fp16 ? above(Tier::kAvx512, 1)
          : tier == Tier::kAvx512Vnni ? above(Tier::kAvx512, 2)
          : tier == Tier::kNeonDot    ? above(Tier::kNeonFp16, 1)
+         : tier == Tier::kNeonI8mm   ? above(Tier::kNeonFp16, 2)
          : tier == Tier::kWasmInt16  ? above(Tier::kWasm, 1)
                                      : above(tier, 0);
 }

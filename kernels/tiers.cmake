@@ -38,6 +38,10 @@ set(mien_neondot_families "")
 set(mien_neondot_extra
   fma_peak/neondot.cpp inverted_residual/neondot.cpp inverted_residual/neondot_product.cpp
   quantize_to_int8/neondot.cpp)
+set(mien_neoni8mm_families "")
+set(mien_neoni8mm_extra
+  fma_peak/neoni8mm.cpp inverted_residual/neoni8mm.cpp inverted_residual/neoni8mm_product.cpp
+  quantize_to_int8/neondot.cpp)
 
 function(mien_tier_sources tier output)
   set(families ${mien_tier_families})

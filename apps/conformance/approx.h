@@ -29,6 +29,7 @@ struct Arithmetic {
   int chunk;       // number of products per partial sum; partial sums are added in fp32
   // Factors of products are first quantized to 16-bit integers, or to 8 bits if the case says so.
   bool is_quantized = false, has_int8 = false;
+  int int8_panel = 16;  // outputs of a panel of weights of 8 bits
 };
 inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max()};
 // fp16: 11 bits, denormals kept. Values of x, multiply-adds and the maps between the layers of a
@@ -43,6 +44,7 @@ inline constexpr Arithmetic kQuantizedArithmetic{kUnit, kFlushed, std::numeric_l
 inline constexpr Arithmetic kInt8Arithmetic{kUnit, kFlushed, std::numeric_limits<int>::max(), true,
                                             true};
 inline constexpr Arithmetic kHalfOrInt8Arithmetic{0x1p-11, 0x1p-24, 64, false, true};
+inline constexpr Arithmetic kHalfOrInt8MatrixArithmetic{0x1p-11, 0x1p-24, 64, false, true, 8};
 // For sums that become fp16 in the end.
 [[nodiscard]] inline Arithmetic in_one_chunk(Arithmetic by) {
   by.chunk = std::numeric_limits<int>::max();

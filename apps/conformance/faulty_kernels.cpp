@@ -194,6 +194,19 @@ void saturates_int8_early(const InvertedResidualArgs& a) {
   correct_block(wrong);
 }
 
+using kernels::QuantizeToInt8Args;
+
+void correct_panels(const QuantizeToInt8Args& a) {
+  kernels::find<QuantizeToInt8Args>(kernels::bit(kernels::Tier::kRef))(a);
+}
+
+// Writes the panels of tiers that multiply another number of outputs at once.
+void confuses_panels(const QuantizeToInt8Args& a) {
+  QuantizeToInt8Args wrong = a;
+  wrong.panel = 24 - a.panel;  // 8 for 16, and 16 for 8
+  correct_panels(wrong);
+}
+
 template <class Args>
 AnyKernel any(void (*kernel)(const Args&)) {
   return reinterpret_cast<AnyKernel>(kernel);
@@ -224,7 +237,9 @@ std::span<const FaultyKernel> faulty_kernels() {
                     registers = register_convention() != nullptr;
   constexpr const char* kDense = "fully_connected";
   constexpr const char* kBlock = "inverted_residual";
-  constexpr kernels::Tier kInt8 = kernels::Tier::kAvxVnni, kSigned = kernels::Tier::kNeonDot;
+  constexpr const char* kToInt8 = "quantize_to_int8";
+  constexpr kernels::Tier kInt8 = kernels::Tier::kAvxVnni, kSigned = kernels::Tier::kNeonDot,
+                          kMatrix = kernels::Tier::kNeonI8mm;
   // The first buffers end at a guard page; without guard pages, a stray write changes the border.
   static const Fault stray = crashes ? Fault::kCrashes : Fault::kTouchesBorder;
   static const FaultyKernel kFaults[] = {
@@ -262,6 +277,11 @@ std::span<const FaultyKernel> faulty_kernels() {
       {"forgets offsets of signed 8 bits", kBlock, any(forgets_signed_offsets), Fault::kWrongResult,
        true, kSigned},
       {"signed 8 bits saturate early", kBlock, any(saturates_int8_early), Fault::kWrongResult, true,
+       kSigned},
+      {"nothing: panels of 8 outputs", kToInt8, any(correct_panels), Fault::kNone, true, kMatrix},
+      {"panels of 16 outputs for 8", kToInt8, any(confuses_panels), Fault::kWrongResult, true,
+       kMatrix},
+      {"panels of 8 outputs for 16", kToInt8, any(confuses_panels), Fault::kWrongResult, true,
        kSigned},
   };
   return kFaults;

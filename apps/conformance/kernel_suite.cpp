@@ -22,9 +22,10 @@ const Arithmetic& arithmetic_of(kernels::Tier tier) {
   if (kernels::is_quantized(tier)) {
     return has_int8 ? kInt8Arithmetic : kQuantizedArithmetic;
   }
-  return has_int8                 ? kHalfOrInt8Arithmetic
-         : kernels::is_half(tier) ? kHalfArithmetic
-                                  : kSingleArithmetic;
+  if (has_int8) {
+    return kernels::int8_panel(tier) == 8 ? kHalfOrInt8MatrixArithmetic : kHalfOrInt8Arithmetic;
+  }
+  return kernels::is_half(tier) ? kHalfArithmetic : kSingleArithmetic;
 }
 
 Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases) {

@@ -230,12 +230,13 @@ MIEN_API size_t mien_error_message(const mien_error_detail* detail, char* text, 
 #define MIEN_CPU_AVX_VNNI 0x400u
 #define MIEN_CPU_WASM_INT16 0x800u
 #define MIEN_CPU_NEON_DOT 0x1000u
+#define MIEN_CPU_NEON_I8MM 0x2000u
 /** All tiers that compute with 16 bits where that is faster. Results have about three digits. Half
  *  precision is correct only for networks whose values stay within 65504, as those of the project's
  *  networks do. */
 #define MIEN_CPU_HALF                                                                       \
   (MIEN_CPU_NEON_FP16 | MIEN_CPU_AVX512_FP16 | MIEN_CPU_AVX512_VNNI | MIEN_CPU_AVX2_INT16 | \
-   MIEN_CPU_AVX_VNNI | MIEN_CPU_WASM_INT16 | MIEN_CPU_NEON_DOT)
+   MIEN_CPU_AVX_VNNI | MIEN_CPU_WASM_INT16 | MIEN_CPU_NEON_DOT | MIEN_CPU_NEON_I8MM)
 /** Not a tier: allows fused layers, which are faster. Without it each layer runs separately, with
  *  the same results except for rounding. */
 #define MIEN_CPU_FUSED 0x80000000u

@@ -1,8 +1,10 @@
-// The neondot tier of quantize_to_int8. It computes 4 outputs at once.
+// The tiers neondot and neoni8mm of quantize_to_int8. They compute 4 outputs at once.
+#include <algorithm>
+
 #include "kernels/common/neon.h"
 #include "kernels/families.h"
 
-namespace mien::kernels::neondot {
+namespace mien::kernels::MIEN_TIER {
 namespace {
 
 // The fp16 weights of 4 outputs of a panel, padded with zeros.
@@ -10,8 +12,7 @@ struct Outputs {
   const std::uint16_t* weights;
   std::int32_t width;  // of the panel: 16 or 8
   std::int32_t inputs, reduction;
-  // Elements of the sum that are stored together.
-  [[nodiscard]] std::int32_t together() const { return width == kPanel ? 4 : 8; }
+  std::int32_t together;  // elements of the sum that are stored together: 4 or 8
   [[nodiscard]] Vec at(std::int32_t k) const {
     return k < inputs ? load_half(weights + std::ptrdiff_t{k} * width) : splat(0.0f);
   }
@@ -39,13 +40,12 @@ int32x4_t quad_at(const Outputs& outputs, std::int32_t k, Vec inverse_scale, int
 
 // Returns the sums.
 int32x4_t write_quads(const Outputs& outputs, Vec inverse_scale, std::int8_t* y) {
-  const std::int32_t together = outputs.together();
   int32x4_t sum = vdupq_n_s32(0);
-  for (std::int32_t k = 0; k < outputs.reduction; k += together, y += 4 * kPanel) {
+  for (std::int32_t k = 0; k < outputs.reduction; k += outputs.together, y += 4 * kPanel) {
     auto* to = reinterpret_cast<std::int32_t*>(y);
     int32x4x2_t quads;
     quads.val[0] = quad_at(outputs, k, inverse_scale, sum);
-    if (together == 4) {
+    if (outputs.together == 4) {
       vst1q_s32(to, quads.val[0]);
     } else {
       quads.val[1] = quad_at(outputs, k + 4, inverse_scale, sum);
@@ -62,16 +62,18 @@ void quantize_to_int8(const QuantizeToInt8Args& a) {
   const std::int32_t reduction = (a.in_blocks + 1) / 2 * kPanel;
   for (std::int32_t channel = 0; channel < all; channel += kLanes) {
     const std::int32_t first = channel / kPanel * kPanel;  // output of the panel
-    const std::int32_t width = all - first < kPanel ? kBlock : kPanel, lane = channel - first;
-    const Outputs outputs{a.weights + std::ptrdiff_t{first} * inputs + lane, width, inputs,
-                          reduction};
+    const std::int32_t width = all - first < kPanel ? kBlock : kPanel;
+    const Outputs outputs{a.weights + std::ptrdiff_t{first} * inputs + channel - first, width,
+                          inputs, reduction, std::min(width, a.panel) == kPanel ? 4 : 8};
     const Vec scales = scales_of(outputs);
     const Vec inverse = only(vcgtq_f32(scales, splat(0.0f)), divide(splat(1.0f), scales));
-    const int32x4_t sums = write_quads(
-        outputs, inverse, a.quads + std::ptrdiff_t{first} * reduction + lane * outputs.together());
+    const std::int32_t lane = channel % std::min(width, a.panel);
+    const int32x4_t sums =
+        write_quads(outputs, inverse,
+                    a.quads + std::ptrdiff_t{channel - lane} * reduction + lane * outputs.together);
     store(a.scales + channel, scales);
     store(a.sums + channel, vcvtq_f32_s32(sums));
   }
 }
 
-}  // namespace mien::kernels::neondot
+}  // namespace mien::kernels::MIEN_TIER

@@ -4,11 +4,11 @@
 //   w[o, i] = scales[o] q[o, i], to within half a scale
 //   sums[o] = sum over i of q[o, i]
 //
-// `weights` are panels as in pointwise.h. `quads` are panels of as many outputs, in which inputs
+// `weights` are panels as in pointwise.h. `quads` are panels of `panel` outputs, in which inputs
 // that are multiplied together are adjacent. The reduction is padded with zeros to a multiple of
 // 16:
 //   of 16 outputs: [reduction/4][16][4]
-//   the last, if out_blocks is odd: [reduction/8][8][2][4]
+//   of 8 outputs, and the last of 16 if out_blocks is odd: [reduction/8][8][2][4]
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@ struct QuantizeToInt8Args {
   float* scales;                       // [out_blocks * 8]
   float* sums;                         // [out_blocks * 8]
   std::int32_t in_blocks, out_blocks;  // of 8 channels; at most kQuantizedWeightsMaxInputs inputs
+  std::int32_t panel;                  // 8 in neoni8mm, 16 in the other tiers, both in ref
 };
 
 // Greatest magnitude of q.

@@ -16,8 +16,9 @@ double scale_of(const QuantizedPanels& w, std::int32_t o) {
 }  // namespace
 
 void quantize_to_int8(const QuantizeToInt8Args& a) {
-  const QuantizedPanels w{a.weights, a.out_blocks * kBlock, a.in_blocks * kBlock,
-                          (a.in_blocks + 1) / 2 * kPanel, 4};
+  const QuantizedPanels w{
+      a.weights, a.out_blocks * kBlock, a.in_blocks * kBlock, (a.in_blocks + 1) / 2 * kPanel, 4,
+      a.panel};
   for (std::int32_t o = 0; o < w.outputs; ++o) {
     const double scale = scale_of(w, o);
     double sum = 0.0;

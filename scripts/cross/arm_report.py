@@ -22,11 +22,13 @@ LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neonfp16", "inverted_residual/neonfp16", r"whole_outputs<.*Halves, 2, 1, ", "depthwise 3x3, stride 1, 2x2 outputs"),
     ("neonfp16", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
     ("neondot", "inverted_residual/neondot_product", r"tile<.*HalfPanel, .*ToStrip, 9>", "pointwise, 9 pixels x 8 channels"),
+    ("neoni8mm", "inverted_residual/neoni8mm_product", r"tile<.*ToStrip, 12>", "pointwise, 12 pixels x 8 channels"),
 ]
 TITLES = {"ncnn": "ncnn", "ncnn_16bit": "ncnn, fp16", "litert": "LiteRT (XNNPACK)", "litert_int8": "LiteRT, int8",
           "onnxruntime": "ONNX Runtime", "onnxruntime_int8": "ONNX Runtime, int8"}
 VISIBLE = 5e-4  # error of an output
 WITHOUT_FP16 = "Cortex-A53"
+WITH_I8MM = "Cortex-A510", "Cortex-X2"
 X86_LOOPS = [  # kernel, object, pattern of the function's name
     ("pointwise", "pointwise/avx2_product", r"tile<6, 2, float>"),
     ("fully_connected", "fully_connected/avx2", r"avx2::fully_connected"),
@@ -44,13 +46,25 @@ def loop_of(folder, name, pattern, objdump="aarch64-linux-gnu-objdump"):
     return inner_loops.busiest_loop(next(body for function, body in found.items() if re.search(pattern, function)))
 
 
+def has_tier(cpu, tier):
+    return cpu in WITH_I8MM if tier == "neoni8mm" else tier == "neon" or cpu != WITHOUT_FP16
+
+
 def predictions(folder_of):
     rows = []
     for tier, name, pattern, what in LOOPS:
         loop = loop_of(folder_of(tier), name, pattern)
-        rows.append([tier, what, *("-" if tier != "neon" and cpu == WITHOUT_FP16 else f"{predict.share_of_limit(loop, model):.0%}"
+        rows.append([tier, what, *(f"{predict.share_of_limit(loop, model):.0%}" if has_tier(cpu, tier) else "-"
                                    for cpu, model in predict.CPUS.items())])
     return rows
+
+
+def i8mm_gain(folder_of):
+    """A sentence about the cycles of neoni8mm's products; an instruction has twice as many as neondot's."""
+    dot, i8mm = (loop_of(folder_of(tier), name, pattern) for tier, name, pattern, _ in LOOPS[-2:])
+    ratios = [f"{predict.cycles_per_multiply(i8mm, predict.CPUS[cpu]) / predict.cycles_per_multiply(dot, predict.CPUS[cpu]) / 2:.2f} on {cpu}"
+              for cpu in WITH_I8MM]
+    return f"A product of `neoni8mm` takes, relative to `neondot`, {' and '.join(ratios)}."
 
 
 def prediction_error(folder, conformance):
@@ -120,14 +134,14 @@ def main():
     in_int8.mkdir(exist_ok=True)
     for model, _ in NETWORKS:
         write_with_bounds(Path(f"models/{model}.mien"), in_int8 / f"{model}.mien")
-    neondot = Machine("neondot", *arm, in_int8)
+    neondot, neoni8mm = (Machine(tier, *arm, in_int8) for tier in ("neondot", "neoni8mm"))
     avx2 = Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2")
     header = ["tier", "inner loop", *predict.CPUS]
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
     x64 = work / "report-x64"
     error = prediction_error(x64 / "kernels/CMakeFiles/mien_kernels_avx2.dir", x64 / "apps/conformance/mien-conformance")
-    rows, macs = instructions((neon, neonfp16, neondot, avx2), work)
+    rows, macs = instructions((neon, neonfp16, neondot, neoni8mm, avx2), work)
     text = f"""# Predicted speed on ARM
 
 For developers of kernels. No ARM machine was available: `scripts/cross/arm_report.sh` predicts loops and counts instructions.
@@ -135,17 +149,19 @@ For developers of kernels. No ARM machine was available: `scripts/cross/arm_repo
 ## Inner loops
 
 Predictions of llvm-mca ({version(predict.PROGRAM)}): the cycles that the multiply-adds of a loop need at least, as a share of the cycles that it takes. The
-models of A76 and X1 are those of Neoverse N1 and V1. {WITHOUT_FP16} has no fp16 arithmetic. Code of gcc; that of clang differs by at most {difference} points.
+models of A76, X1 and X2 are those of Neoverse N1, V1 and N2. {WITHOUT_FP16} has no fp16 arithmetic. Code of gcc; that of clang differs by at most {difference} points.
 
 {table(header, by_gcc)}
+{i8mm_gain(gcc)}
+
 {error}
 
 ## Instructions per multiply-accumulate
 
 One run of a network, counted by qemu-user; in parentheses relative to AVX2, whose vectors have twice the width of NEON's.
-`neondot` has [8 bits](int8.md) in pointwise layers.
+`neondot` and `neoni8mm` have [8 bits](int8.md) in pointwise layers.
 
-{table(["network", "neon", "neonfp16", "neondot", "avx2"], rows)}{others(out.parent / "arm_peers.json", macs)}"""
+{table(["network", "neon", "neonfp16", "neondot", "neoni8mm", "avx2"], rows)}{others(out.parent / "arm_peers.json", macs)}"""
     out.write_text(text)
 
 

@@ -42,4 +42,5 @@ by_clang neon "-DMIEN_HAVE_NEON" pointwise/neon_product inverted_residual/neon l
 by_clang neonfp16 "-DMIEN_HAVE_NEON -DMIEN_HAVE_NEONFP16 -DMIEN_HALF_TIER -march=armv8.2-a+fp16" \
   inverted_residual/neonfp16_product inverted_residual/neonfp16 lstm/neon
 by_clang neondot "-march=armv8.2-a+fp16+dotprod" inverted_residual/neondot_product
+by_clang neoni8mm "-march=armv8.2-a+fp16+i8mm" inverted_residual/neoni8mm_product
 PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=apps/convert python3 scripts/cross/arm_report.py "$work" "$out"

@@ -2,7 +2,7 @@
 import re
 import subprocess
 
-MULTIPLIES = "fmla", "sdot", "vfmadd132ps", "vfmadd213ps", "vfmadd231ps"  # and adds
+MULTIPLIES = "fmla", "sdot", "smmla", "vfmadd132ps", "vfmadd213ps", "vfmadd231ps"  # and adds
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 INSTRUCTION = re.compile(r"^\s*([0-9a-f]+):\s+([a-z][\w.]*)\s*(.*?)(?:\s*(?://|# ).*)?$")
 BRANCH = re.compile(r"^(b\.?\w*|cbn?z|tbn?z|j(?!mp)\w+)$")  # of ARM and x86

@@ -8,6 +8,7 @@ for argument; do
   case $argument in
     -march=armv8.2-a+fp16) arguments+=(-mcpu=generic+v8_2a+fullfp16) ;;
     -march=armv8.2-a+fp16+dotprod) arguments+=(-mcpu=generic+v8_2a+fullfp16+dotprod) ;;
+    -march=armv8.2-a+fp16+i8mm) arguments+=(-mcpu=generic+v8_2a+fullfp16+i8mm) ;;
     -march=armv7-a) arguments+=(-mcpu=generic+v7a+neon+vfp4) ;;
     -mfpu=neon-vfpv4) ;;
     -fPIE) [[ " $* " == *" -shared "* ]] || arguments+=(-fPIE) ;;

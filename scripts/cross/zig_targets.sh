@@ -74,8 +74,9 @@ build_amalgamated() {  # target, folder of the amalgamation, program, options of
     linux-arm64 | windows-arm64)  # Zig switches half precision off in a way that a pragma cannot undo
       "${compiler[@]}" -march=armv8.2-a+fp16 -c "$2/mien_neonfp16.cpp" -o "$3.neonfp16.o"
       "${compiler[@]}" -march=armv8.2-a+fp16+dotprod -c "$2/mien_neondot.cpp" -o "$3.neondot.o"
-      mapfile -t sources < <(find "$2" -name 'mien*.cpp' ! -name mien_neonfp16.cpp ! -name mien_neondot.cpp | sort)
-      sources+=("$3.neonfp16.o" "$3.neondot.o") ;;
+      "${compiler[@]}" -march=armv8.2-a+fp16+i8mm -c "$2/mien_neoni8mm.cpp" -o "$3.neoni8mm.o"
+      mapfile -t sources < <(find "$2" -name 'mien*.cpp' ! -name mien_neonfp16.cpp ! -name mien_neondot.cpp ! -name mien_neoni8mm.cpp | sort)
+      sources+=("$3.neonfp16.o" "$3.neondot.o" "$3.neoni8mm.o") ;;
   esac
   "${compiler[@]}" -s -I"$2" tests/package/amalgamated/main.cpp "${sources[@]}" -o "$3"
 }

@@ -37,6 +37,9 @@ TIERS_HERE = """\
 #if defined(__ARM_FEATURE_DOTPROD) || !defined(__clang__) || __clang_major__ >= 17
 #define MIEN_HAVE_NEONDOT
 #endif
+#if defined(__ARM_FEATURE_MATMUL_INT8) || !defined(__clang__) || __clang_major__ >= 17
+#define MIEN_HAVE_NEONI8MM
+#endif
 #endif
 #elif defined(__arm__) && defined(__ARM_FEATURE_FMA) && defined(__ARM_FP16_FORMAT_IEEE)
 #define MIEN_HAVE_NEON32  // -march=armv7-a -mfpu=neon-vfpv4 -mfp16-format=ieee
@@ -64,6 +67,8 @@ class Tier:
         found = [path for stem in stems for path in (ROOT / "kernels").glob(f"*/{stem}.cpp")]
         if self.name == "neonfp16":
             found += [ROOT / "kernels" / family / "neon.cpp" for family in ("causal_conv", "fully_connected", "lstm")]
+        if self.name == "neoni8mm":
+            found.append(ROOT / "kernels/quantize_to_int8/neondot.cpp")
         return sorted(found)
 
 
@@ -90,6 +95,7 @@ TIERS = [
     Tier("neon", defines=["MIEN_TIER neon"], pragmas=[NEON_PRAGMA]),
     Tier("neonfp16", "fullfp16", "arch=armv8.2-a+fp16", ["MIEN_TIER neonfp16", "MIEN_HALF_TIER"], [NEON_PRAGMA]),
     Tier("neondot", "fullfp16,dotprod", "arch=armv8.2-a+fp16+dotprod", ["MIEN_TIER neondot"], [NEON_PRAGMA]),
+    Tier("neoni8mm", "fullfp16,i8mm", "arch=armv8.2-a+fp16+i8mm", ["MIEN_TIER neoni8mm"], [NEON_PRAGMA]),
     Tier("neon32", defines=["MIEN_TIER neon32"], pragmas=[NEON_PRAGMA]),
     Tier("wasm", defines=["MIEN_TIER wasm"]),
     Tier("wasmint16"),

@@ -174,6 +174,7 @@ TEST(Names, Tiers) {
   EXPECT_STREQ(mien_cpu_tier_name(MIEN_CPU_AVX_VNNI), "avxvnni");
   EXPECT_STREQ(mien_cpu_tier_name(MIEN_CPU_WASM_INT16), "wasmint16");
   EXPECT_STREQ(mien_cpu_tier_name(MIEN_CPU_NEON_DOT), "neondot");
+  EXPECT_STREQ(mien_cpu_tier_name(MIEN_CPU_NEON_I8MM), "neoni8mm");
   EXPECT_EQ(std::uint32_t{MIEN_CPU_HALF}, kernels::kHalfTiers);
   EXPECT_EQ(mien_cpu_tier_name(0), nullptr);
   EXPECT_EQ(mien_cpu_tier_name(MIEN_CPU_REF | MIEN_CPU_AVX2), nullptr);

@@ -20,6 +20,7 @@ TEST(Tiers, PreferFixedPointToHalfPrecisionToFp32) {
   EXPECT_GT(rank(Tier::kAvx2Int16), rank(Tier::kAvx2));
   EXPECT_GT(rank(Tier::kNeonFp16), rank(Tier::kNeon));
   EXPECT_GT(rank(Tier::kNeonDot), rank(Tier::kNeonFp16));
+  EXPECT_GT(rank(Tier::kNeonI8mm), rank(Tier::kNeonDot));
 }
 
 #ifdef __x86_64__

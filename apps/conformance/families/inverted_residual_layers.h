@@ -70,6 +70,7 @@ struct Layers {
   std::vector<float> x;
   std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
   QuantizedWeights quantized1, quantized3;  // w1 and w3
+  int int8_panel;                           // outputs of a panel of the following
   Int8Weights int8_1, int8_3;
   bool is_quantized = false;           // expand and project are quantized
   float bound1 = 0.0f, bound3 = 0.0f;  // of inputs of expand and project with 8 bits, else 0
@@ -82,7 +83,8 @@ struct Layers {
         w2(random.halves(padded(of.hidden_c) * of.window.kernel_h * of.window.kernel_w)),
         b2(random.bias(of.hidden_c)),
         w3(random.panels(of.out_c, padded(of.hidden_c))),
-        b3(random.bias(of.out_c)) {
+        b3(random.bias(of.out_c)),
+        int8_panel(random.arithmetic().int8_panel) {
     if (of.in_c > 0) {
       w1 = random.panels(of.hidden_c, padded(of.in_c));
       b1 = random.bias(of.hidden_c);
@@ -100,10 +102,10 @@ struct Layers {
       return;
     }
     quantized3 = QuantizedWeights(w3, of.out_c, of.hidden_c, kernels::kQuantizedBandMax, false);
-    int8_3 = Int8Weights(w3, of.out_c, of.hidden_c);
+    int8_3 = Int8Weights(w3, of.out_c, of.hidden_c, int8_panel);
     if (of.in_c > 0) {
       quantized1 = QuantizedWeights(w1, of.hidden_c, of.in_c, kernels::kQuantizedMapMax, true);
-      int8_1 = Int8Weights(w1, of.hidden_c, of.in_c);
+      int8_1 = Int8Weights(w1, of.hidden_c, of.in_c, int8_panel);
     }
   }
 

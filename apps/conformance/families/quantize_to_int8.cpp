@@ -11,8 +11,8 @@ using kernels::QuantizeToInt8Args;
 
 int padded_to_16(int inputs) { return (inputs + 15) / 16 * 16; }
 
-std::size_t index_of(int outputs, int reduction, int o, int k) {
-  return index_in_panels(outputs, reduction, 4, o, k);
+std::size_t index_of(int panel, int outputs, int reduction, int o, int k) {
+  return index_in_panels(panel, outputs, reduction, 4, o, k);
 }
 
 double largest_weight(const std::vector<std::uint16_t>& panels, int outputs, int inputs, int o) {
@@ -49,7 +49,8 @@ std::vector<Approx> expected_sums(const Int8Weights& weights, int reduction) {
   for (int o = 0; o < outputs; ++o) {
     int ties = 0;
     for (int k = 0; k < reduction; ++k) {
-      const double one = std::abs(weights.quotients[index_of(outputs, reduction, o, k)]);
+      const double one =
+          std::abs(weights.quotients[index_of(weights.panel, outputs, reduction, o, k)]);
       ties += std::abs(one - std::floor(one) - 0.5) <= one * 0x1p-20 ? 1 : 0;
     }
     all.push_back({static_cast<double>(weights.sums[as_size(o)]), static_cast<double>(ties)});
@@ -59,7 +60,8 @@ std::vector<Approx> expected_sums(const Int8Weights& weights, int reduction) {
 
 Case make(RandomValues& random, int inputs, int outputs) {
   const std::vector<std::uint16_t> panels = random.panels(outputs, padded(inputs));
-  const Int8Weights weights(panels, outputs, inputs);
+  const int panel = random.arithmetic().int8_panel;
+  const Int8Weights weights(panels, outputs, inputs, panel);
   Case test;
   test.shape = std::to_string(inputs) + " to " + std::to_string(outputs);
   test.buffers = {reads(panels), writes(Element::kInt8, expected_quads(weights.quotients)),
@@ -67,8 +69,8 @@ Case make(RandomValues& random, int inputs, int outputs) {
                   writes(Element::kFloat, expected_sums(weights, padded_to_16(inputs)))};
   test.bind = [=](const Addresses& buffers) {
     return arguments(QuantizeToInt8Args{buffers.halves(0), buffers.int8s(1), buffers.floats(2),
-                                        buffers.floats(3), padded(inputs) / 8,
-                                        padded(outputs) / 8});
+                                        buffers.floats(3), padded(inputs) / 8, padded(outputs) / 8,
+                                        panel});
   };
   test.call = call<QuantizeToInt8Args>;
   return test;
@@ -76,8 +78,11 @@ Case make(RandomValues& random, int inputs, int outputs) {
 
 }  // namespace
 
-Int8Weights::Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs)
-    : quotients(as_size(padded(outputs) * padded_to_16(inputs))), quads(quotients.size()) {
+Int8Weights::Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs,
+                         int to_panel)
+    : quotients(as_size(padded(outputs) * padded_to_16(inputs))),
+      quads(quotients.size()),
+      panel(to_panel) {
   const int all = padded(outputs), given = padded(inputs), reduction = padded_to_16(inputs);
   for (int o = 0; o < all; ++o) {
     const double scale = largest_weight(panels, all, given, o) / 127.0;
@@ -85,8 +90,9 @@ Int8Weights::Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, 
     for (int k = 0; k < given && scale > 0.0; ++k) {
       const double quotient = panel_weight(panels, all, given, o, k) / scale;
       const double q = std::nearbyint(quotient);
-      quotients[index_of(all, reduction, o, k)] = quotient;
-      quads[index_of(all, reduction, o, k)] = static_cast<std::uint8_t>(static_cast<int>(q));
+      const std::size_t at = index_of(panel, all, reduction, o, k);
+      quotients[at] = quotient;
+      quads[at] = static_cast<std::uint8_t>(static_cast<int>(q));
       sum += q;
     }
     scales.push_back(static_cast<float>(scale));

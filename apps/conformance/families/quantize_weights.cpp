@@ -29,7 +29,7 @@ double scale_of(const Panels& w, int o, int max_value, bool is_signed) {
 }
 
 std::size_t index_of(const Panels& w, int o, int k) {
-  return index_in_panels(w.outputs, w.reduction, 2, o, k);
+  return index_in_panels(16, w.outputs, w.reduction, 2, o, k);
 }
 
 std::vector<Approx> expected_scales(const std::vector<float>& scales, int reduction) {

@@ -1,15 +1,18 @@
 // Quantized weights as in quantize_weights.h and quantize_to_int8.h.
 #pragma once
 
+#include <algorithm>
+
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
 
-// Index of element k of output o's sum in panels of quantized weights. `group`: adjacent elements
-// in a lane, 2 of 16 bits or 4 of 8.
-inline std::size_t index_in_panels(int outputs, int reduction, int group, int o, int k) {
-  const int width = outputs - o / 16 * 16 < 16 ? 8 : 16, together = 16 * group / width;
-  return as_size(o / 16 * 16 * reduction + k / together * 16 * group + o % 16 * together +
+// Index of element k of output o's sum in panels of `panel` outputs of quantized weights. `group`:
+// adjacent elements in a lane, 2 of 16 bits or 4 of 8.
+inline std::size_t index_in_panels(int panel, int outputs, int reduction, int group, int o, int k) {
+  const int first = o / panel * panel, width = std::min(panel, outputs - first);
+  const int together = 16 * group / width;
+  return as_size(first * reduction + k / together * 16 * group + (o - first) * together +
                  k % together);
 }
 
@@ -27,12 +30,14 @@ struct QuantizedWeights {
 
 struct Int8Weights {
   Int8Weights() = default;
-  Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs);
+  // `to_panel`: outputs of a panel of `quads`.
+  Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs, int to_panel);
 
   // w / scale before rounding, in the order of `quads`.
   std::vector<double> quotients;
   std::vector<std::uint8_t> quads;  // two's complement
   std::vector<float> scales, sums;
+  int panel = 0;
 };
 
 }  // namespace mien::conformance

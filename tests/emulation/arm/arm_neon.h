@@ -207,3 +207,16 @@ inline int32x4_t vcvtnq_s32_f32(float32x4_t x) {
 inline float16x8_t vmulq_f16(float16x8_t a, float16x8_t b) {
   return emulated_halves(a, b, a, [](double x, double w, double) { return x * w; });
 }
+
+// ARMv8.6 with I8MM: a and b are two rows of 8 elements; row i of a times row j of b is added to
+// element [i][j].
+inline int32x4_t vmmlaq_s32(int32x4_t sum, int8x16_t a, int8x16_t b) {
+  const EmulatedLanes<std::int8_t, int8x16_t> rows(a), columns(b);
+  EmulatedLanes<std::int32_t, int32x4_t> to(sum);
+  for (int i = 0; i < to.kCount; ++i) {
+    for (int k = 0; k < 8; ++k) {
+      to.at[i] += rows.at[i / 2 * 8 + k] * columns.at[i % 2 * 8 + k];
+    }
+  }
+  return to.vector();
+}

@@ -136,7 +136,9 @@ int main(int count, char** arguments) {
                                                            : 0u;
       below |= tier == MIEN_CPU_AVX512_VNNI ? MIEN_CPU_AVX512 | MIEN_CPU_AVX2 : 0u;
       below |= tier == MIEN_CPU_AVX2_INT16 || tier == MIEN_CPU_AVX_VNNI ? MIEN_CPU_AVX2 : 0u;
-      below |= tier == MIEN_CPU_NEON_FP16 || tier == MIEN_CPU_NEON_DOT ? MIEN_CPU_NEON : 0u;
+      below |= tier == MIEN_CPU_NEON_FP16 || tier == MIEN_CPU_NEON_DOT || tier == MIEN_CPU_NEON_I8MM
+                   ? MIEN_CPU_NEON
+                   : 0u;
       fine = fine && track(weights, pictures, tier | below);
     }
   }
