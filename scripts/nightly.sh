@@ -26,6 +26,7 @@ step tests scripts/test.sh --all
 step other_machines scripts/cross/all.sh --full
 step other_compilers scripts/cross/compilers.sh
 step swift scripts/cross/swift.sh
+step emulated_processors scripts/cross/bochs.sh
 step wheels scripts/package/wheels.sh
 step sizes scripts/package/sizes.py --check
 step android_package scripts/package/android.sh

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that building, testing and running mien need.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [swift] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-musl] [cross-zig] [cross-swift] [cross-i386] [cross-s390x] [coverage] [rtsan] [compilers] [valgrind] [convert-fuzz] [web] [web-test] [docs]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [swift] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-musl] [cross-zig] [cross-debian13] [cross-i386] [cross-s390x] [coverage] [rtsan] [compilers] [valgrind] [convert-fuzz] [web] [web-test] [docs]
 #        (default: build test demo)
 # As root or with sudo; does nothing if all are installed.
 set -euo pipefail
@@ -15,7 +15,7 @@ declare -A PACKAGES=(
   [csharp]="clang mono-mcs mono-runtime libmono-system-core4.0-cil ffmpeg python3"
   [java]="clang openjdk-17-jdk-headless kotlin unzip ffmpeg python3"
   [swift]="swiftlang libc6-dev ffmpeg python3 git clang"
-  [cross-swift]="debootstrap git"
+  [cross-debian13]="debootstrap git"
   [release]="dpkg-dev git python3-venv"
   [cross-arm]="g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user googletest binutils llvm llvm-19 clang clang-tidy"
   [cross-x86]="qemu-user"

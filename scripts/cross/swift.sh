@@ -1,16 +1,12 @@
 #!/usr/bin/env bash
-# Tests the Swift package in Debian 13, whose packages contain a Swift compiler: in a system of its own in build/debian13.
+# Tests the Swift package in Debian 13, whose packages contain a Swift compiler.
 # usage: scripts/cross/swift.sh      (as root)
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-scripts/setup.sh cross-swift
-system=build/debian13
-[ -e $system/etc/debian_version ] || debootstrap --variant=minbase trixie $system
-rm -rf $system/mien
-mkdir $system/mien
-git ls-files -z --cached --others --exclude-standard | xargs -0 cp -p --parents -t $system/mien
-git -C $system/mien init -q  # tests list the files of a repository
-chroot $system /mien/scripts/setup.sh build swift
-mount -t proc proc $system/proc  # the compiler finds its files by it
-trap 'umount $system/proc' EXIT
-chroot $system env LANG=C.UTF-8 /mien/bindings/swift/test.sh
+. scripts/cross/debian13.sh
+rm -rf "$SYSTEM/mien"
+mkdir "$SYSTEM/mien"
+git ls-files -z --cached --others --exclude-standard | xargs -0 cp -p --parents -t "$SYSTEM/mien"
+git -C "$SYSTEM/mien" init -q  # tests list the files of a repository
+in_debian13 /mien/scripts/setup.sh build swift
+in_debian13 /mien/bindings/swift/test.sh
