@@ -11,7 +11,8 @@ namespace mien::formats {
 
 // What follows the last dot, colon or bar.
 inline std::string_view without_path(std::string_view name) {
-  return name.substr(name.find_last_of(".:|") + 1);
+  const std::size_t mark = name.find_last_of(".:|");
+  return mark == std::string_view::npos ? name : name.substr(mark + 1);
 }
 
 // The letters and digits of a name in lower case, with sides spelled out (_L is left), and without
