@@ -50,7 +50,7 @@ inline float band_bound(const InvertedResidualArgs& a) {
   return std::min(a.project.input_bound, clamp_of(a.depthwise.activation).high);
 }
 
-// Maps and bands consist of planes of [pixels][channels], of which a tier supplies
+// Maps and bands consist of planes of [pixels][channels]. A tier supplies
 //   kChannels                          16 or 8
 //   store(y, plane_elems, int8x16_t)   writes 16 channels of a pixel of the plane that contains y
 template <class Planes>

@@ -57,7 +57,7 @@ class LandmarkStream(unittest.TestCase):
     def test_points_match_whole_heads(self):
         """Landmarks alone are those of whole heads, and the stream does not repeat."""
         if not (data() / "rig").exists():
-            self.skipTest(f"there is no rig in {data()}")
+            self.skipTest(f"no rig in {data()}")
         rig = Rig()
         points, rng = PointRig(rig), np.random.default_rng(0)
         identity, controls = look.sample_identity(rng), expressions.sample_sequence(rng, 5, phone=1.0)
