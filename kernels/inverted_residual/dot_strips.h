@@ -2,6 +2,7 @@
 // multiply 8-bit integers. The products need signed values, so the band holds value - kInt8Shift.
 #pragma once
 
+#include "kernels/families.h"
 #include "kernels/inverted_residual/dot_product.h"
 #include "kernels/inverted_residual/neon_half_strips.h"
 
@@ -153,6 +154,16 @@ class DotStrips {
   std::int32_t first_row_ = 0;
   std::ptrdiff_t plane_elems_ = 0;  // of the map
 };
+
+// Blocks without bounds of 8 bits run in half precision.
+template <class Planes>
+void run_dot_strips(const InvertedResidualArgs& a) {
+  if (DotStrips<Planes>::can_run(a)) {
+    InvertedResidual<DotStrips<Planes>>(a).run();
+  } else {
+    neonfp16::inverted_residual(a);
+  }
+}
 
 }  // namespace
 }  // namespace mien::kernels::MIEN_TIER

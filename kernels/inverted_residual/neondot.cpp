@@ -16,12 +16,6 @@ struct Planes {
 
 }  // namespace
 
-void inverted_residual(const InvertedResidualArgs& a) {
-  if (DotStrips<Planes>::can_run(a)) {
-    InvertedResidual<DotStrips<Planes>>(a).run();
-  } else {
-    neonfp16::inverted_residual(a);
-  }
-}
+void inverted_residual(const InvertedResidualArgs& a) { run_dot_strips<Planes>(a); }
 
 }  // namespace mien::kernels::neondot
