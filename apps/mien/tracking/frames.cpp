@@ -33,7 +33,7 @@ InputTracks choose(const TrackOptions& options) {
   InputTracks tracks;
   const bool pipes_sound = options.mode == Mode::kAudio && options.audio.empty();
   if (pipes_sound && options.input == kStandardInput) {
-    tracks.sound = kStandardInput;
+    tracks.sound = options.input;
     return tracks;
   }
   if (options.audio == kStandardInput && options.input == kStandardInput) {
