@@ -33,7 +33,7 @@ slice() {  # folder of the framework, targets
 slice ios-arm64 ios-arm64
 slice ios-arm64_x86_64-simulator ios-simulator-arm64 ios-simulator-x64
 slice macos-arm64_x86_64 macos-arm64 macos-x64
-cp scripts/package/apple/Info.plist "$out/"
+scripts/package/apple/info_plist.py "$out"
 tests/package/check_xcframework.py "$out"
 
 # The library of macOS in a program, whose C++ library is Zig's.

@@ -108,10 +108,11 @@ class XCFramework(Folder):
         (self.folder / "a.c").write_text(SYMBOLS)
         self.run_tool("clang", "-target", triple, "-c", "a.c", "-o", "a.o")
         self.run_tool(LIBTOOL[-1], "-static", "-D", "-o", library / "libmien.a", "a.o")
-        plist = plistlib.loads((SOURCE / "scripts/package/apple/Info.plist").read_bytes())
-        plist["AvailableLibraries"] = plist["AvailableLibraries"][:1]
+        self.run_tool(SOURCE / "scripts/package/apple/info_plist.py", self.folder / "M.xcframework")
+        listed = self.folder / "M.xcframework/Info.plist"
+        plist = plistlib.loads(listed.read_bytes())
         plist["AvailableLibraries"][0]["SupportedArchitectures"] = list(architectures)
-        (self.folder / "M.xcframework/Info.plist").write_bytes(plistlib.dumps(plist))
+        listed.write_bytes(plistlib.dumps(plist))
         return self.folder / "M.xcframework"
 
     def test_valid(self):
