@@ -70,9 +70,10 @@ def page(results):
     known = {level: supported(results, level) for level in LEVELS}
     counts = " and ".join(f"{len(known[level])} controls at {out.level(level)}" for level in LEVELS)
     lines = ["# Accuracy by control", "", "For users who ask how well a certain control works.",
-             ""] + out.prose(f"""mien supports {counts}. The table has correlations with the truth on
-        [rendered people](synthetic.md) and with MediaPipe on [clips](clips.md), of the left and the right control of
-        a pair, or once if both are equal. A dash: not supported, or constant in MediaPipe's output.
+             ""] + out.prose(f"""mien supports {counts} in video; sound adds jawForward. The table has
+        correlations with the truth on [rendered people](synthetic.md) and with MediaPipe on [clips](clips.md), of the
+        left and the right control of a pair, or once if both are equal. A dash: not supported, or constant in
+        MediaPipe's output.
         [response.json](response.json) has ranges, [amplitude.json](amplitude.json) deviations.""")
     one = lambda figure, level, c: out.number(figure(results, level, c), 2) if c in known[level] else "-"
     cell = lambda figure, level, c: ", ".join(dict.fromkeys(one(figure, level, side) for side in sides(c)))
