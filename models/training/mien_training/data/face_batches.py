@@ -23,7 +23,8 @@ from mien_training.renderer.assets import names
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls trust face")
 
 
-NEAR_PROFILE_ODDS = 3  # turned heads are rare and difficult
+NEAR_PROFILE_ODDS = 4  # turned heads are rare and difficult
+FRONTAL = np.radians(23)
 
 
 def rarity(controls):
@@ -167,6 +168,12 @@ def jitter(crop, generator, roughness=1.0, wide_share=0.2):
                         crop[:, 2] * torch.exp(d[:, 2]), crop[:, 3] + d[:, 3]], 1)
 
 
+def looseness(rotation):
+    """Roughness [n,1] of crops, relative to frontal faces: fits to landmarks of turned heads are less exact."""
+    yaw = torch.atan2(rotation[:, 0, 2].abs(), rotation[:, 2, 2])
+    return 1 + ((yaw - FRONTAL) / FRONTAL).clamp(0, 1)[:, None]
+
+
 def misplace(crop, generator):
     """Crops that show a face badly: shifted by half a side, or much too wide or too close."""
     n = len(crop)
@@ -225,8 +232,10 @@ class Mixture:
         images, landmarks, crop, controls, visible = source.rows(self.rng, n)
         face, rendered = source is not self.backgrounds, isinstance(source, Rendered)
         bad = torch.rand(n, generator=self.generator) < misplaced_share
-        used = torch.where(bad[:, None], misplace(crop, self.generator),
-                           jitter(crop, self.generator, self.roughness * self.framing.looseness))
+        roughness = self.roughness * self.framing.looseness
+        if face:
+            roughness = roughness * looseness(source.last["rotation"])
+        used = torch.where(bad[:, None], misplace(crop, self.generator), jitter(crop, self.generator, roughness))
         good = ~bad & face
         pose = self.pose_targets(source.last, used) if face else torch.zeros(n, 9)
         trust = source.last["trust"] if source is self.portraits else torch.ones(n, len(CONTROLS))

@@ -11,6 +11,7 @@ from mien_training.data import head_pose
 from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS, PAIRED_LEFT, PAIRED_RIGHT
 from mien_training.data.face_batches import to_crop
+from mien_training.data.sequences import crop_to_image, fit_crop, template
 
 # Lids, lips, irises and brows carry the expression.
 POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5}
@@ -120,7 +121,7 @@ class Losses:
         self.framing, self.unit = framing, eye_distance  # in crop coordinates
         self.points = point_weights().to(device)
         self.pairs = torch.tensor([[lp.POSITION[a], lp.POSITION[b]] for a, b in OPENINGS], device=device)
-        self.lids = lids_of_controls().to(device)
+        self.lids, self.template = lids_of_controls().to(device), template().to(device)
         self.of_eye = self.lids.sum(0) > 0
         self.spread = torch.ones(len(CONTROLS), device=device)
         self.side_spread = torch.ones(len(PAIRED_LEFT), device=device)
@@ -154,6 +155,13 @@ class Losses:
     def consistency(self, first, second, crop):
         """Landmarks must move with the image (Honari et al. 2018): `second` belongs to `crop` of the first's image."""
         return self.distance(second, to_crop(crop, self.framing.to_pixels(first))).mean()
+
+    def alignment(self, out, batch):
+        """The tracker fits the next crop to the landmarks, so errors of their position, size and roll add up."""
+        rows, weights = batch.has_landmarks, 0.3 + 0.7 * batch.visible.mean(1)[batch.has_landmarks]
+        crops = (fit_crop(self.template, points[rows]) for points in (out, batch.landmarks))
+        error = self.distance(*(crop_to_image(crop, self.template.expand(len(crop), -1, -1)) for crop in crops))
+        return (error.mean(1) * weights).sum() / weights.sum()
 
     def told(self, batch):
         """Controls that are visible and labelled, bool [n,52]; those of an eye only if the eye is visible."""
@@ -199,7 +207,7 @@ class Losses:
         return F.smooth_l1_loss(*self.turn.bring(out[rows], batch.pose[rows]), beta=0.1)
 
     def total(self, out, batch):
-        return (2 * self.landmarks(out["landmarks"], batch) + 0.5
+        return (2 * self.landmarks(out["landmarks"], batch) + 3 * self.alignment(out["landmarks"], batch) + 0.5
                 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
                 + 8 * self.controls(out["controls"], batch) + 4 * self.sides(out["sides"], batch)
                 + 2 * self.sides(unevenness(censored(out["controls"], batch.controls)), batch)

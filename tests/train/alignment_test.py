@@ -1,0 +1,62 @@
+"""Training for the crops that the tracker fits to landmarks."""
+import unittest
+
+import numpy as np
+import torch
+
+from mien_training.data.face_batches import Batch, looseness
+from mien_training.data.framing import BASENET
+from mien_training.data.sequences import template
+from mien_training.phase1.losses import Losses
+
+
+def batch_of(landmarks, has_landmarks):
+    labels = dict.fromkeys(Batch._fields) | {"landmarks": landmarks, "visible": torch.ones(landmarks.shape[:2]),
+                                             "has_landmarks": has_landmarks}
+    return Batch(**labels)
+
+
+class Alignment(unittest.TestCase):
+    def setUp(self):
+        self.losses = Losses(BASENET, 0.3, "cpu")
+        self.truth = template().repeat(4, 1, 1)
+        self.batch = batch_of(self.truth, torch.tensor([True, True, True, False]))
+
+    def loss(self, points):
+        return float(self.losses.alignment(points, self.batch))
+
+    def test_counts_position_size_and_roll(self):
+        middle = self.truth.mean(1, keepdim=True)
+        assert self.loss(self.truth) < 1e-6
+        assert 0.09 < self.loss(self.truth + torch.tensor([0.03, 0.0])) < 0.11, "0.03 of the crop is 0.1 of the eyes"
+        assert self.loss(middle + 1.1 * (self.truth - middle)) > 0.02
+        turned = (self.truth - middle) @ torch.tensor([[0.0, 1.0], [-1.0, 0.0]])
+        assert self.loss(middle + np.cos(0.1) * (self.truth - middle) + np.sin(0.1) * turned) > 0.02
+
+    def test_ignores_shape_and_images_without_landmarks(self):
+        pair = torch.zeros_like(self.truth)
+        # Two pairs of points that move apart: the fitted similarity stays nearly the same.
+        pair[:, 0, 0], pair[:, 1, 0] = 0.02, -0.02
+        assert self.loss(self.truth + pair) < 0.002
+        moved = self.truth.clone()
+        moved[3] += 1
+        assert self.loss(moved) < 1e-6
+
+    def test_learns_from_landmarks_of_zero(self):
+        points = torch.zeros_like(self.truth).requires_grad_()
+        self.losses.alignment(self.truth + points, self.batch).backward()
+        assert torch.isfinite(points.grad).all() and not points.grad[3].any()
+
+
+class Looseness(unittest.TestCase):
+    def test_turned_heads_are_cropped_more_roughly(self):
+        angle = torch.tensor([0.0, 0.3, 0.6, -0.6, 1.2])
+        rotation = torch.zeros(5, 3, 3)
+        rotation[:, 0, 2], rotation[:, 2, 2] = angle.sin(), angle.cos()
+        found = looseness(rotation)[:, 0]
+        assert found[0] == found[1] == 1 and found[4] == 2
+        assert 1 < found[2] < 2 and torch.isclose(found[2], found[3])
+
+
+if __name__ == "__main__":
+    unittest.main()
