@@ -35,14 +35,14 @@ class Alignment(unittest.TestCase):
 
     def test_ignores_shape_and_images_without_landmarks(self):
         pair = torch.zeros_like(self.truth)
-        # Two pairs of points that move apart: the fitted similarity stays nearly the same.
+        # Two points that move apart: the fitted similarity stays nearly the same.
         pair[:, 0, 0], pair[:, 1, 0] = 0.02, -0.02
         assert self.loss(self.truth + pair) < 0.002
         moved = self.truth.clone()
         moved[3] += 1
         assert self.loss(moved) < 1e-6
 
-    def test_learns_from_landmarks_of_zero(self):
+    def test_learns_nothing_from_images_without_landmarks(self):
         points = torch.zeros_like(self.truth).requires_grad_()
         self.losses.alignment(self.truth + points, self.batch).backward()
         assert torch.isfinite(points.grad).all() and not points.grad[3].any()

@@ -12,32 +12,25 @@ import torch
 from tqdm import tqdm
 
 from mien_training.data import faces
-from mien_training.data import landmark_points as lp
 from mien_training.data.crop_sampler import sample
-from mien_training.data.sequences import crop_to_image, fit_crop, template
+from mien_training.data.label_portraits import PUPILS
+from mien_training.data.sequences import crop_to_image, fit_crop, load, template
+from mien_training.evaluate.evaluate_wild import RIGHT
 from mien_training.networks.architectures import FACE_NETWORKS
 
 ALIGNMENTS = 7
 YAWS = (0, 24, 36, 50, 90)  # degrees
-RIGHT, WORST = 0.15, 0.4
-PUPILS = [lp.POSITION[lp.IRIS[side][0]] for side in (0, 1)]
-
-
-def network_of(name, path):
-    network, state = FACE_NETWORKS[name](), torch.load(path, map_location="cpu")
-    network.load_state_dict(state.get("average", state.get("network")), strict=False)
-    return network.eval()
+WORST = 0.4
 
 
 def errors(network, portraits, i):
     """Error from the true crop, and after ALIGNMENTS."""
     framing, crop = network.framing, portraits.crops[i]
-    side = framing.window_crops * crop[2]
-    image = faces.window(portraits.image(i), crop[:2], side, framing.window)[None]
-    scale = framing.window / side
+    scale = framing.pixels_per_window(crop[2])
+    image = faces.window(portraits.image(i), crop[:2], framing.window / scale, framing.window)[None]
     truth = torch.from_numpy((portraits.points[i] - crop[:2]) * scale + framing.window / 2).float()
     pupils = (truth[PUPILS[0]] - truth[PUPILS[1]]).norm().clamp(min=1)
-    placed = torch.tensor([[framing.window / 2, framing.window / 2, crop[2] * scale, crop[3]]], dtype=torch.float32)
+    placed = torch.tensor([[*framing.middle[:3], crop[3]]], dtype=torch.float32)
     found = []
     for _ in range(ALIGNMENTS + 1):
         points = crop_to_image(placed, network(sample(image, placed, framing) * 2 - 1)["landmarks"])
@@ -55,7 +48,7 @@ def main():
     portraits = faces.Portraits("val", ("faces_wild", "faces_more"))
     yaw = np.degrees(portraits.labels.yaw())
     for path in options.checkpoints:
-        network = network_of(options.network, path)
+        network = load(path, FACE_NETWORKS[options.network]())
         found = np.array([errors(network, portraits, i) for i in tqdm(range(len(portraits)), path.stem, mininterval=5)])
         for low, high in zip(YAWS, YAWS[1:]):
             rows = found[(yaw >= low) & (yaw < high)]

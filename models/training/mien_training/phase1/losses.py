@@ -158,7 +158,8 @@ class Losses:
 
     def alignment(self, out, batch):
         """The tracker fits the next crop to the landmarks, so errors of their position, size and roll add up."""
-        rows, weights = batch.has_landmarks, 0.3 + 0.7 * batch.visible.mean(1)[batch.has_landmarks]
+        rows = batch.has_landmarks
+        weights = 0.3 + 0.7 * batch.visible[rows].mean(1)
         crops = (fit_crop(self.template, points[rows]) for points in (out, batch.landmarks))
         error = self.distance(*(crop_to_image(crop, self.template.expand(len(crop), -1, -1)) for crop in crops))
         return (error.mean(1) * weights).sum() / weights.sum()
