@@ -85,7 +85,7 @@ class Refit(unittest.TestCase):
         layer, renders, portraits = self.made(0.7)
         funnel = INDEX["mouthFunnel"]
         layer[funnel] = 0
-        layer[funnel, 60] = 0.1  # of noise
+        layer[funnel, 60] = 0.05  # of noise
         after = refit.refitted(layer, renders, portraits)
         self.assertTrue(torch.equal(after[funnel], layer[funnel]))
 
@@ -95,10 +95,17 @@ class Refit(unittest.TestCase):
         layer[brow, -1] = 0.3
         rows = refit.neutral(portraits)
         self.assertGreater(int(rows.sum()), 100)
-        after = refit.quieted(layer, portraits)
+        after = refit.quieted(layer, portraits, rows, refit.NEUTRAL)
         self.assertLess(float(refit.mean_answer(after, portraits, rows).max()), refit.NEUTRAL + 0.01)
         others = [i for i in range(len(CONTROLS)) if i != brow]
         self.assertTrue(torch.equal(after[others], layer[others]))
+
+    def test_rendered_faces_at_rest_get_little(self):
+        layer, renders, portraits = self.made(1.0)
+        layer[INDEX["browOuterUpLeft"], -1] = 0.08
+        after = refit.refitted(layer, renders, portraits)
+        self.assertGreater(float(refit.mean_answer(layer, renders, refit.resting(renders)).max()), 0.07)
+        self.assertLess(float(refit.mean_answer(after, renders, refit.resting(renders)).max()), refit.RESTING + 0.005)
 
     def test_eyelids_close_in_winks(self):
         layer, renders, _ = self.made(1.0)

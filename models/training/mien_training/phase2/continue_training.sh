@@ -5,12 +5,12 @@
 #   HOURS   of training of the encoder, 0 for decoders only
 #   NAME    of the run, default NETWORK_continued: checkpoints in $MIEN_CACHE/runs/NAME, features in $MIEN_CACHE/stream/NAME
 # MIEN_DATA, MIEN_CACHE, PYTHON (default python3, with PyTorch), PROCESSES (default: one per processor); learning RATE (8e-4) of the encoder;
-# PEOPLE (2000) and VALIDATION (240) people of the features; STEPS (3000) of the decoders
+# PEOPLE (800) and VALIDATION (192) people of the features; STEPS (150) of the controls decoder: more memorize these people
 set -euo pipefail
 cd "$(dirname "$0")/../../../.."
 export PYTHONPATH=$PWD/models/training:$PWD/apps/convert OMP_NUM_THREADS=1
 network=$1 hours=$2 name=${3:-$1_continued}
-python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} validation=${VALIDATION:-240} steps=${STEPS:-3000}
+python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} validation=${VALIDATION:-192} steps=${STEPS:-150}
 cache=${MIEN_CACHE:-$HOME/.cache/mien}
 run=$cache/runs/$name stream=$cache/stream/$name shipped=$cache/runs/shipped before=$cache/stream/shipped
 scripts/setup.sh train
@@ -60,21 +60,21 @@ features() {  # stream, checkpoints of the encoders, parts of renders
     "$python" -m mien_training.phase2.portrait_stream --checkpoints "$2" --out "$1" --split "${part%:*}"
   done
 }
-features "$stream" "$run/encoders" "train:${PEOPLE:-2000}" "val:$validation"
+features "$stream" "$run/encoders" "train:${PEOPLE:-800}" "val:$validation"
 if [ "$hours" = 0 ]; then
   before=$stream  # the same encoder's
 else
   features "$before" "$shipped" "val:$validation"
 fi
 
-train() {  # decoder, checkpoint to start from, output
-  "$python" -m mien_training.phase2.train_decoders --network "$network" --stream "$stream" --steps "$steps" --decoder "$1" --start-from "$2" --out "$3"
+train() {  # decoder, checkpoint to start from, output, steps, learning rate
+  "$python" -m mien_training.phase2.train_decoders --network "$network" --stream "$stream" --decoder "$1" --start-from "$2" --out "$3" --steps "$4" --rate "$5"
 }
 if [ "$network" = basenet ] && [ "$hours" != 0 ]; then  # HiFiNet has no head pose
-  train pose "$decoders" "$run/pose.pt"
+  train pose "$decoders" "$run/pose.pt" 300 2e-4
   decoders=$run/pose.pt
 fi
-train controls "$decoders" "$run/trained.pt"
+train controls "$decoders" "$run/trained.pt" "$steps" 2e-5
 cp "$decoders" "$run/kept.pt"
 for each in kept trained; do
   "$python" -m mien_training.phase2.refit_outputs --network "$network" --stream "$stream" --decoders "$run/$each.pt" --out "$run/${each}_refitted.pt"

@@ -4,8 +4,8 @@ usage: python3 -m mien_training.phase2.refit_outputs --network basenet|hifinet -
 Run stream_features.py and portrait_stream.py before. Eyelids and smiles follow the portraits, where a closed eye is 1
 for everyone (eyelids.py) and smiles are the teacher's; on renders their target is their previous output times a gain.
 Other controls that correlate with the truth and move less than it on rendered validation people get a gain around their
-output at rest. Neutral portraits get at most NEUTRAL on average. Eyelids get a larger gain if winks of rendered
-validation people need it.
+output at rest. Neutral portraits get at most NEUTRAL on average, rendered faces at rest at most RESTING. Eyelids get a
+larger gain if winks of rendered validation people need it.
 """
 import argparse
 from dataclasses import dataclass
@@ -27,6 +27,7 @@ AIM, MOST = 0.9, 1.4      # deviation over the true one that gains aim at, and t
 LEAST = 0.5               # correlation with the truth on renders, below which a gain would mostly magnify noise
 FURTHEST = 1.1            # deviation over the true one that a control may reach on renders to fit portraits
 NEUTRAL = 0.095           # largest mean output on neutral training portraits
+RESTING = 0.03            # the same on rendered training faces at rest
 WINK = (0.9, 0.1)         # of the truth: a wink has one eye above the first and the other below the second
 WINKS = 10                # minimum number of frames with winks of an eye
 CLOSED, OPEN = 0.9, 0.2   # mean outputs during winks: minimum of the closed eye, maximum of the open one
@@ -102,17 +103,21 @@ def mean_answer(layer, parts, rows):
     return output_controls(parts.hidden[rows] @ layer.T).mean(0)
 
 
+def resting(renders):
+    return renders.controls.amax(1) < AT_REST
+
+
 def at_rest(layer, renders, portraits):
     """The larger mean of rendered faces at rest and of neutral portraits, [52]."""
-    return torch.maximum(mean_answer(layer, renders, renders.controls.amax(1) < AT_REST),
+    return torch.maximum(mean_answer(layer, renders, resting(renders)),
                          mean_answer(layer, portraits, neutral(portraits)))
 
 
-def quieted(layer, portraits):
-    """The layer with lower biases where neutral portraits get more than NEUTRAL."""
-    out, rows = layer.clone(), neutral(portraits)
-    for _ in range(3):  # outputs are at least 0, so that their mean falls by less than the bias
-        out[:, -1] -= (mean_answer(out, portraits, rows) - NEUTRAL).clamp(min=0)
+def quieted(layer, parts, rows, limit):
+    """The layer with lower biases where the mean output of `rows` exceeds `limit`."""
+    out = layer.clone()
+    for _ in range(4):  # outputs are at least 0, so that their mean falls by less than the bias
+        out[:, -1] -= (mean_answer(out, parts, rows) - limit).clamp(min=0)
     return out
 
 
@@ -187,7 +192,7 @@ def refitted(layer, renders, portraits, others=None):
         gain[control] = gain[control].clamp(min=wink_gain(out, control, other, rest, others))
     out *= gain[:, None]
     out[:, -1] -= (gain - 1) * rest
-    return quieted(out, portraits)
+    return quieted(quieted(out, renders, resting(renders), RESTING), portraits, neutral(portraits), NEUTRAL)
 
 
 def main():
