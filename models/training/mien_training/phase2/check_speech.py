@@ -1,0 +1,56 @@
+"""Whether controls follow a person who speaks: the correlation with MediaPipe within the validation videos of one
+person, the speaker of the pack av, who is not among the portraits.
+
+usage: python3 -m mien_training.phase2.check_speech [--mien PROGRAM] [--lod 1] [--every 3] MODELS...
+Portraits and rendered people, each with a face of its own, do not show it: one encoder rose on both of them and its
+pucker fell here from 0.76 to 0.61.
+"""
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from mien_training.data.expressions import CONTROLS
+from mien_training.evaluate import teacher
+from mien_training.evaluate.program import Program
+from mien_training.paths import ROOT, data
+
+
+def clips(every):
+    """(path, MediaPipe's controls [frames,52]; NaN: unknown to it) of each `every`th video."""
+    known = np.load(data() / "av/curves.npz")
+    names, stems = ([str(n) for n in known[k]] for k in ("blendshape_names", "clip"))
+    table = np.stack([known["blendshapes"][:, names.index(c)].astype(float) if c in names
+                      else np.full(len(known["blendshapes"]), np.nan) for c in CONTROLS], 1)
+    for path in sorted((data() / "av/video").glob("*.mp4"))[::every]:
+        first, last = known["offset"][stems.index(path.stem):][:2]
+        yield path, table[first:last]
+
+
+def followed(program, lod, every):
+    """{control: its row of compare_controls}, without the mean of each clip."""
+    ours, theirs = [], []
+    for path, truth in clips(every):
+        table = program.track(path, lod).table
+        both = [v[:min(len(truth), len(table["t_ms"]))] for v in (np.stack([table[c] for c in CONTROLS], 1), truth)]
+        face = table["status"][:len(both[0])] == "tracking"
+        for values, joined in zip(both, (ours, theirs)):
+            joined.append(values[face] - values[face].mean(0))
+    return teacher.compare_controls(np.concatenate(ours), np.concatenate(theirs))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--mien", type=Path, default=ROOT / "build/release/apps/mien/mien", help="the built program")
+    parser.add_argument("--lod", type=int, default=1)
+    parser.add_argument("--every", type=int, default=3, help="take every Nth video")
+    parser.add_argument("models", type=Path, nargs="+", metavar="MODELS")
+    args = parser.parse_args()
+    found = [followed(Program(args.mien, models), args.lod, args.every) for models in args.models]
+    for control, row in found[0].items():
+        if row["spread"] >= teacher.MOVES and row["correlation"] is not None:
+            print(control.ljust(20), *(f"{each[control]['correlation']:6.2f}" for each in found))
+
+
+if __name__ == "__main__":
+    main()
