@@ -1,9 +1,11 @@
-"""Training for the crops that the tracker fits to landmarks."""
+"""Losses of encoders: the crops that the tracker fits to landmarks, and what portraits teach."""
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 import torch
 
+from mien_training.data.expressions import CONTROLS, INDEX
 from mien_training.data.face_batches import Batch, looseness
 from mien_training.data.framing import BASENET
 from mien_training.data.sequences import template
@@ -56,6 +58,27 @@ class Looseness(unittest.TestCase):
         found = looseness(rotation)[:, 0]
         assert found[0] == found[1] == 1 and found[4] == 2
         assert 1 < found[2] < 2 and torch.isclose(found[2], found[3])
+
+
+class Portraits(unittest.TestCase):
+    def setUp(self):
+        self.losses = Losses(BASENET, 0.3, "cpu")
+        self.labels = torch.rand(50, len(CONTROLS), generator=torch.Generator().manual_seed(1))
+        self.labels[:, INDEX["eyeLookUpLeft"]] = 0.2  # moves on no portrait
+        self.losses.learn_teacher(SimpleNamespace(controls=self.labels))
+
+    def loss(self, name):
+        """The loss of an output with a wrong control, on portraits only."""
+        out = self.labels.clone()
+        out[:, INDEX[name]] = out[:, INDEX[name]].flip(0)
+        labels = dict.fromkeys(Batch._fields) | {
+            "controls": self.labels, "has_landmarks": torch.ones(50, dtype=bool),
+            "has_controls": torch.zeros(50, dtype=bool), "trust": torch.ones(50, len(CONTROLS))}
+        return float(self.losses.teacher(out, Batch(**labels)))
+
+    def test_teach_smiles_jaw_eyelids_and_gaze_only(self):
+        assert all(self.loss(name) > 0.01 for name in ("mouthSmileLeft", "jawOpen", "eyeBlinkRight", "eyeLookInLeft"))
+        assert all(self.loss(name) < 1e-4 for name in ("mouthPucker", "browDownLeft", "eyeSquintLeft", "eyeLookUpLeft"))
 
 
 if __name__ == "__main__":

@@ -25,6 +25,9 @@ RESPONDING = 0.03       # minimum spread of a teacher's control on portraits who
 # minimum spread to learn from; funnel, mouthClose and jawRight move little but correctly
 HINTING = 0.015
 NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
+# On portraits, the teacher's other controls depend on identity: an encoder that learned them, too, followed the pucker
+# and brows of a speaking person worse (docs/results/training_history.md).
+LEARNED_FROM_PORTRAITS = ("eyeBlink", "eyeLook", "jawOpen", "mouthSmile")
 TEACHER_WEIGHT = 2.0
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not dominate the sum
 AT_END = 0.01           # targets as close as this to 0 or 1 count as 0 or 1
@@ -137,8 +140,9 @@ class Losses:
             self.side_spread = unevenness(controls).std(0).clamp(min=SMALLEST_SPREAD).to(self.spread)
 
     def learn_teacher(self, portraits):
-        self.teacher_spread, self.followed = (v.to(self.spread.device)
-                                              for v in teacher_spread(portraits.controls, HINTING))
+        self.teacher_spread, followed = (v.to(self.spread.device)
+                                         for v in teacher_spread(portraits.controls, HINTING))
+        self.followed = followed & followed.new_tensor([n.startswith(LEARNED_FROM_PORTRAITS) for n in CONTROLS])
 
     def distance(self, predicted, truth):
         """A rounded absolute value, in eye distances: like a squared error near zero, not ruled by outliers."""
