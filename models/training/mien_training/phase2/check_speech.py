@@ -3,7 +3,7 @@ person, the speaker of the pack av, who is not among the portraits.
 
 usage: python3 -m mien_training.phase2.check_speech [--mien PROGRAM] [--lod 1] [--every 3] MODELS...
 Portraits and rendered people, each with a face of its own, do not show it: one encoder rose on both of them and its
-pucker fell here from 0.76 to 0.61.
+pucker fell here from 0.78 to 0.62.
 """
 import argparse
 from pathlib import Path
@@ -48,8 +48,9 @@ def main():
     args = parser.parse_args()
     found = [followed(Program(args.mien, models), args.lod, args.every) for models in args.models]
     for control, row in found[0].items():
-        if row["spread"] >= teacher.MOVES and row["correlation"] is not None:
-            print(control.ljust(20), *(f"{each[control]['correlation']:6.2f}" for each in found))
+        values = [each[control]["correlation"] for each in found]
+        if row["spread"] >= teacher.MOVES and None not in values:
+            print(control.ljust(20), *(f"{value:6.2f}" for value in values))
 
 
 if __name__ == "__main__":
