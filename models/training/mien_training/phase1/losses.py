@@ -25,8 +25,8 @@ RESPONDING = 0.03       # minimum spread of a teacher's control on portraits who
 # minimum spread to learn from; funnel, mouthClose and jawRight move little but correctly
 HINTING = 0.015
 NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
-# On portraits, the teacher's other controls depend on identity: an encoder that learned them, too, followed the pucker
-# and brows of a speaking person worse (docs/results/training_history.md).
+# On portraits, the teacher's other controls depend on identity: an encoder that learned them, too, followed the brows
+# and pucker of a speaking person worse (docs/results/training_history.md).
 LEARNED_FROM_PORTRAITS = ("eyeBlink", "eyeLook", "jawOpen", "mouthSmile")
 TEACHER_WEIGHT = 2.0
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not dominate the sum
