@@ -12,7 +12,7 @@ from mien_training.data.expressions import CONTROLS, INDEX
 from mien_training.phase2 import check_speech
 
 FRAMES, STEMS = 20, ["bbaf2n", "bbal7s", "bbas3a"]
-JAW, PUCKER = INDEX["jawOpen"], INDEX["mouthPucker"]
+UNSEEN = 7  # frame of each clip without a face according to the teacher
 
 
 class CheckSpeech(unittest.TestCase):
@@ -24,8 +24,9 @@ class CheckSpeech(unittest.TestCase):
         for stem in STEMS:
             (pack / "video" / f"{stem}.mp4").touch()
         self.truth = np.random.default_rng(1).random((3 * FRAMES, 2))
+        self.found = np.arange(3 * FRAMES) % FRAMES != UNSEEN
         np.savez(pack / "curves.npz", clip=STEMS, offset=np.arange(4) * FRAMES, blendshapes=self.truth,
-                 blendshape_names=["mouthPucker", "jawOpen"])
+                 blendshape_names=["mouthPucker", "jawOpen"], found=self.found)
         environment = mock.patch.dict(os.environ, {"MIEN_DATA": folder.name})
         environment.start()
         self.addCleanup(environment.stop)
@@ -35,14 +36,15 @@ class CheckSpeech(unittest.TestCase):
         clip = STEMS.index(path.stem)
         pucker, jaw = self.truth[clip * FRAMES:(clip + 1) * FRAMES].T
         table = {name: np.zeros(FRAMES) for name in CONTROLS} | {"jawOpen": 0.3 * jaw + clip, "mouthPucker": -pucker}
-        table["jawOpen"][3] = 9
+        table["jawOpen"][[3, UNSEEN]] = 9
         return SimpleNamespace(table=table | {
             "t_ms": 40.0 * np.arange(FRAMES), "status": np.where(np.arange(FRAMES) == 3, "lost", "tracking")})
 
     def test_clips_have_the_rows_of_their_names(self):
         found = list(check_speech.clips(2))
-        self.assertEqual([path.stem for path, _ in found], STEMS[::2])
-        np.testing.assert_array_equal(found[1][1][:, JAW], self.truth[2 * FRAMES:, 1])
+        self.assertEqual([path.stem for path, *_ in found], STEMS[::2])
+        np.testing.assert_array_equal(found[1][1][:, INDEX["jawOpen"]], self.truth[2 * FRAMES:, 1])
+        np.testing.assert_array_equal(found[1][2], self.found[2 * FRAMES:])
         self.assertTrue(np.isnan(found[0][1][:, INDEX["tongueOut"]]).all())
 
     def test_only_motion_within_a_clip_counts(self):

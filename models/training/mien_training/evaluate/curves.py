@@ -36,6 +36,12 @@ def rotations(table):
     return matrices
 
 
+def blendshapes(data, controls):
+    """The teacher's `controls` [n,controls] of an archive; NaN: unknown to it."""
+    column = {str(name): values for name, values in zip(data["blendshape_names"], data["blendshapes"].astype(float).T)}
+    return np.stack([column.get(name, np.full(len(data["blendshapes"]), np.nan)) for name in controls], 1)
+
+
 class Teacher:
     """MediaPipe's answer for one clip, in our landmarks and controls."""
 
@@ -44,10 +50,7 @@ class Teacher:
         self.t_ms, self.found = data["t_ms"].astype(np.float64), data["found"].astype(bool)
         self.shares = data["landmarks"][..., :2].astype(np.float64)
         self.rotation = data["matrix_colmajor"].reshape(-1, 4, 4).transpose(0, 2, 1)[:, :3, :3].astype(np.float64)
-        names = [str(n) for n in data["blendshape_names"]]
-        shapes = data["blendshapes"].astype(np.float64)
-        self.controls = np.stack([shapes[:, names.index(c)] if c in names else np.full(len(shapes), np.nan)
-                                  for c in controls], 1)
+        self.controls = blendshapes(data, controls)
 
     def points(self, size_wh):
         """(landmarks [n,175,2], outer eye corner distance [n], pupil distance [n]) in pixels."""

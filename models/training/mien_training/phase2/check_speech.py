@@ -1,5 +1,5 @@
-"""Whether controls follow a person who speaks: the correlation with MediaPipe within the validation videos of one
-person, the speaker of the pack av, who is not among the portraits.
+"""Whether controls follow a person who speaks: the correlation with MediaPipe within the videos of one person, the
+speaker of the pack av. Encoders learn from no picture of this person; some renders move as the curves say.
 
 usage: python3 -m mien_training.phase2.check_speech [--mien PROGRAM] [--lod 1] [--every 3] MODELS...
 Portraits and rendered people, each with a face of its own, do not show it: one encoder rose on both of them and its
@@ -11,31 +11,30 @@ from pathlib import Path
 import numpy as np
 
 from mien_training.data.expressions import CONTROLS
-from mien_training.evaluate import teacher
+from mien_training.evaluate import curves, teacher
 from mien_training.evaluate.program import Program
 from mien_training.paths import ROOT, data
 
 
 def clips(every):
-    """(path, MediaPipe's controls [frames,52]; NaN: unknown to it) of each `every`th video."""
+    """(path, MediaPipe's controls [frames,52], whether it found a face [frames]) of each `every`th video."""
     known = np.load(data() / "av/curves.npz")
-    names, stems = ([str(n) for n in known[k]] for k in ("blendshape_names", "clip"))
-    table = np.stack([known["blendshapes"][:, names.index(c)].astype(float) if c in names
-                      else np.full(len(known["blendshapes"]), np.nan) for c in CONTROLS], 1)
+    controls, found = curves.blendshapes(known, CONTROLS), known["found"].astype(bool)
+    spans = {str(clip): slice(*known["offset"][i:i + 2]) for i, clip in enumerate(known["clip"])}
     for path in sorted((data() / "av/video").glob("*.mp4"))[::every]:
-        first, last = known["offset"][stems.index(path.stem):][:2]
-        yield path, table[first:last]
+        yield path, controls[spans[path.stem]], found[spans[path.stem]]
 
 
 def followed(program, lod, every):
     """{control: its row of compare_controls}, without the mean of each clip."""
     ours, theirs = [], []
-    for path, truth in clips(every):
+    for path, truth, found in clips(every):
         table = program.track(path, lod).table
-        both = [v[:min(len(truth), len(table["t_ms"]))] for v in (np.stack([table[c] for c in CONTROLS], 1), truth)]
-        face = table["status"][:len(both[0])] == "tracking"
-        for values, joined in zip(both, (ours, theirs)):
-            joined.append(values[face] - values[face].mean(0))
+        frames = min(len(truth), len(table["t_ms"]))
+        both = found[:frames] & (table["status"][:frames] == "tracking")
+        centred = lambda values: values[:frames][both] - values[:frames][both].mean(0)
+        ours.append(centred(np.stack([table[c] for c in CONTROLS], 1)))
+        theirs.append(centred(truth))
     return teacher.compare_controls(np.concatenate(ours), np.concatenate(theirs))
 
 
