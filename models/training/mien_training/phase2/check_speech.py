@@ -1,5 +1,5 @@
 """Whether controls follow a person who speaks: the correlation with MediaPipe within the videos of one person, the
-speaker of the pack av. Encoders learn from no picture of this person; some renders move as the curves say.
+speaker of the pack av. Encoders learn from no image of this person; some renders move as the curves say.
 
 usage: python3 -m mien_training.phase2.check_speech [--mien PROGRAM] [--lod 1] [--every 3] MODELS...
 Portraits and rendered people, each with a face of its own, do not show it: one encoder rose on both of them and its
