@@ -13,8 +13,7 @@ import torch
 from mien_convert.atomic_files import whole
 from mien_training.networks import weight_reader
 from mien_training.networks.architectures import FACE_NETWORKS
-from mien_training.networks.warm_start import decoders_of, in_order, weight_of
-from mien_training.networks.weight_reader import set_linear
+from mien_training.networks.warm_start import decoders_of, read_weights
 from mien_training.paths import ROOT
 
 
@@ -29,17 +28,7 @@ def set_bias_only(norm, bias):
 @torch.no_grad()
 def network_of(path, name):
     network, layers = FACE_NETWORKS[name]().eval(), weight_reader.networks(path)
-    encoder = iter([layer for layer in layers["encoder"] if layer.weight is not None])
-    for conv_norm in in_order(network.encoder):
-        layer = next(encoder)
-        conv_norm[0].weight.copy_(weight_of(layer, conv_norm[0]))
-        set_bias_only(conv_norm[1], layer.bias)
-    last, project = next(encoder), network.encoder.tail[2]
-    project.weight.copy_(weight_of(last, project))
-    project.bias.copy_(last.bias)
-    set_linear(network.landmarks, layers["landmarks"][0])
-    if "face_probability" in layers:
-        set_linear(network.face, layers["face_probability"][0])
+    read_weights(network, layers, lambda conv_norm, layer: set_bias_only(conv_norm[1], layer.bias))
     return network
 
 

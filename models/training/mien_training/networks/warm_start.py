@@ -41,10 +41,18 @@ def weight_of(layer, convolution):
     return layer.weight[:, :kh * kw * channels].reshape(out, kh, kw, channels).permute(0, 3, 1, 2)
 
 
-def set_statistics(norm, maps):
-    """Sets mean and variance of a norm from its input."""
-    norm.running_mean.copy_(maps.mean((0, 2, 3)))
-    norm.running_var.copy_(maps.var((0, 2, 3)))
+def read_weights(network, layers, place):
+    """Copies the weights of a file to a network; `place` puts those of a layer into a ConvNorm."""
+    encoder = iter([layer for layer in layers["encoder"] if layer.weight is not None])
+    for conv_norm in in_order(network.encoder):
+        conv_norm[0].weight.copy_(weight_of(layer := next(encoder), conv_norm[0]))
+        place(conv_norm, layer)
+    last, project = next(encoder), network.encoder.tail[2]
+    project.weight.copy_(weight_of(last, project))
+    project.bias.copy_(last.bias)
+    set_linear(network.landmarks, layers["landmarks"][0])
+    if "face_probability" in layers:
+        set_linear(network.face, layers["face_probability"][0])
 
 
 class Measure:
@@ -52,11 +60,11 @@ class Measure:
 
     def __init__(self, conv_norm, layer):
         self.bias = layer.bias
-        conv_norm[0].weight.copy_(weight_of(layer, conv_norm[0]))
         self.hook = conv_norm[1].register_forward_pre_hook(self.see)
 
     def see(self, norm, inputs):
-        set_statistics(norm, inputs[0])
+        norm.running_mean.copy_(inputs[0].mean((0, 2, 3)))
+        norm.running_var.copy_(inputs[0].var((0, 2, 3)))
         norm.weight.copy_(torch.sqrt(norm.running_var + norm.eps))
         norm.bias.copy_(self.bias + norm.running_mean)
         self.hook.remove()
@@ -84,16 +92,8 @@ def network_of(path, name):
     mixture = face_batches.Mixture(framing, face_batches.Portraits("train", framing),
                                    face_batches.Rendered("train_stills", framing=framing), None, 1)
     network.eval()
-    encoder = iter([layer for layer in layers["encoder"] if layer.weight is not None])
-    for conv_norm in in_order(network.encoder):
-        Measure(conv_norm, next(encoder))
-    last = next(encoder)
-    network.encoder.tail[2].weight.copy_(weight_of(last, network.encoder.tail[2]))
-    network.encoder.tail[2].bias.copy_(last.bias)
+    read_weights(network, layers, Measure)
     network.encoder(mixture.batch(PICTURES).images * 2 - 1)
-    set_linear(network.landmarks, layers["landmarks"][0])
-    if "face_probability" in layers:
-        set_linear(network.face, layers["face_probability"][0])
     lessons = rendered_faces(mixture, LESSONS)
     features = torch.cat([network.encoder(part.images * 2 - 1) for part in lessons])
     solve(network.controls, features, torch.cat([part.controls for part in lessons]))
