@@ -6,7 +6,7 @@ import numpy as np
 import torch
 
 from mien_training.data.expressions import CONTROLS, INDEX
-from mien_training.data.face_batches import Batch, looseness
+from mien_training.data.face_batches import LEARNED_FROM_TEACHER, Batch, looseness
 from mien_training.data.framing import BASENET
 from mien_training.data.sequences import template
 from mien_training.phase1.losses import Losses
@@ -65,7 +65,8 @@ class Portraits(unittest.TestCase):
         self.losses = Losses(BASENET, 0.3, "cpu")
         self.labels = torch.rand(50, len(CONTROLS), generator=torch.Generator().manual_seed(1))
         self.labels[:, INDEX["eyeLookUpLeft"]] = 0.2  # moves on no portrait
-        self.losses.learn_teacher(SimpleNamespace(controls=self.labels))
+        learned = torch.tensor([name.startswith(LEARNED_FROM_TEACHER) for name in CONTROLS])
+        self.losses.learn_teacher(SimpleNamespace(controls=self.labels, learned=learned))
 
     def loss(self, name):
         """The loss of an output with a wrong control, on portraits only."""

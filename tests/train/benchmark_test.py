@@ -6,7 +6,7 @@ from mien_training.phase1 import benchmark
 
 class Benchmark(unittest.TestCase):
     def test_it_measures_each_part(self):
-        seconds = benchmark.benchmark("basenet", batch=8, steps=1, freeze=0)
+        seconds = benchmark.benchmark("basenet", batch=8, steps=1)
         self.assertEqual(set(seconds), set(benchmark.PARTS))
         self.assertTrue(all(value > 0 for value in seconds.values()), seconds)
 

@@ -1,4 +1,5 @@
-"""The check of speaking people: frames of video and teacher meet, people's own level does not count."""
+"""Checks on validation data through the program. Speaking people: frames of video and teacher meet, people's own level
+does not count. Portraits: turned ones count separately."""
 import os
 import tempfile
 import unittest
@@ -9,7 +10,7 @@ from unittest import mock
 import numpy as np
 
 from mien_training.data.expressions import CONTROLS, INDEX
-from mien_training.phase2 import check_speech
+from mien_training.phase2 import check_portraits, check_speech
 
 FRAMES, STEMS = 20, ["bbaf2n", "bbal7s", "bbas3a"]
 UNSEEN = 7  # frame of each clip without a face according to the teacher
@@ -52,6 +53,19 @@ class CheckSpeech(unittest.TestCase):
         self.assertEqual(set(rows), {"jawOpen", "mouthPucker"})
         self.assertAlmostEqual(rows["jawOpen"]["correlation"], 1, 3)
         self.assertAlmostEqual(rows["mouthPucker"]["correlation"], -1, 3)
+
+
+class CheckPortraits(unittest.TestCase):
+    def test_turned_heads_count_separately(self):
+        turned = np.radians([0, 20, 49, 51])
+        portraits = mock.MagicMock(labels=SimpleNamespace(yaw=lambda: turned))
+        portraits.__len__.return_value = 4
+        right = np.array([True, True, False, False])
+        summary = lambda rows: {"found": right[rows].mean(), "error": 0.0375, "correlation": 0.75}
+        with mock.patch.object(check_portraits, "Answers", lambda *_: SimpleNamespace(summary=summary)):
+            line = check_portraits.figures(None, 4, portraits)
+        self.assertIn("50.0% of 4 correct, 66.7% of 3 up to 50 degrees", line)
+        self.assertIn("error 0.0375, correlation 0.750", line)
 
 
 if __name__ == "__main__":

@@ -53,6 +53,16 @@ class EndlessStills(unittest.TestCase):
         self.assertEqual(len(rendered), 14)
         self.assertAlmostEqual(float(rendered.shards[0][1]["controls"][0, 0]), 0.01, places=6)
 
+    def test_stills_of_one_person_are_drawn_together(self):
+        people = [dict.fromkeys(("window", "landmarks", "crop", "controls", "visibility"), np.ones((1, 4), np.float32))
+                  | {"identity": k // 4, "sequence": k, "frame": 0} for k in range(40)]
+        make_synthetic.save(self.place / "shard_0000", [(np.zeros((8, 8, 3), np.uint8), p) for p in people])
+        rendered = Rendered("train_stills", alike=4)
+        rendered.rows(np.random.default_rng(1), 32)
+        drawn = rendered.last["identity"].view(-1, 4)
+        self.assertTrue((drawn == drawn[:, :1]).all())
+        self.assertGreater(len(drawn.unique()), 1)
+
     def test_nothing_is_deleted_with_a_count(self):
         self.shard(0)
         make_synthetic.delete_old(self.place, None)

@@ -19,10 +19,13 @@ from mien_training.renderer.assets import names
 
 # images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; controls [n,52] and pose [n,9], the
 # teacher's on portraits; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; trust in the teacher's
-# controls [n,52]; face [n]: 1 a face well inside the crop, 0 none or misplaced
-Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls trust face")
+# controls [n,52]; face [n]: 1 a face well inside the crop, 0 none or misplaced; person int [n] of renders
+Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls trust face person")
 
 
+# The teacher's other controls depend on identity: an encoder that learned them, too, followed the brows and pucker of a
+# speaking person worse (docs/results/training_history.md).
+LEARNED_FROM_TEACHER = ("eyeBlink", "eyeLook", "jawOpen", "mouthSmile")
 NEAR_PROFILE_ODDS = 4  # turned heads are rare and difficult
 FRONTAL = np.radians(23)
 
@@ -45,8 +48,16 @@ class Portraits:
         found = faces.Portraits(split)
         self.controls, self.camera = torch.from_numpy(found.labels.controls), faces.camera_labels(found, framing)
         self.camera["trust"] = torch.from_numpy(found.labels.control_trust)
+        self.learned = torch.tensor([name.startswith(LEARNED_FROM_TEACHER) for name in CONTROLS])
         self.odds = np.cumsum(rarity(found.labels.controls)
                               * np.where(found.labels.near_profile(), NEAR_PROFILE_ODDS, 1))
+
+    def distil(self, file):
+        """Replaces the teacher's controls by those of a network (distil_controls.py). All that it supports are
+        learned."""
+        known = np.load(file)
+        self.controls, self.learned = (torch.from_numpy(known[name]) for name in ("controls", "supported"))
+        self.camera["trust"] = torch.ones_like(self.controls)
 
     def __len__(self):
         return len(self.images)
@@ -58,10 +69,11 @@ class Portraits:
 
 
 class Rendered:
-    """All existing shards; `refresh` adds new ones and drops deleted ones."""
+    """All existing shards; `refresh` adds new ones and drops deleted ones. `alike` images in a row are drawn
+    together: stills of one person."""
 
-    def __init__(self, *kinds, framing=BASENET):
-        self.kinds, self.window = [framing.folder(k) for k in kinds], framing.window
+    def __init__(self, *kinds, framing=BASENET, alike=1):
+        self.kinds, self.window, self.alike = [framing.folder(k) for k in kinds], framing.window, alike
         self.known = {}
         self.refresh()
 
@@ -84,7 +96,8 @@ class Rendered:
     def rows(self, rng, n):
         parts = []
         for images, labels in (self.shards[k] for k in rng.integers(0, len(self.shards), 4)):
-            i = np.sort(rng.integers(0, len(images), n // 4 + 1))
+            first = np.sort(rng.integers(0, len(images) // self.alike, n // (4 * self.alike) + 1))
+            i = (first[:, None] * self.alike + np.arange(self.alike)).ravel()
             parts.append((
                 images[i], {k: torch.from_numpy(v[i]).float() for k, v in labels.items() if len(v) == len(images)}))
         images = np.concatenate([p[0] for p in parts])[:n]
@@ -239,8 +252,9 @@ class Mixture:
         good = ~bad & face
         pose = self.pose_targets(source.last, used) if face else torch.zeros(n, 9)
         trust = source.last["trust"] if source is self.portraits else torch.ones(n, len(CONTROLS))
+        person = source.last["identity"].long() if rendered else torch.full((n,), -1)
         return Batch(sample(images, used, self.framing), to_crop(used, landmarks), controls, pose, visible, good,
-                     good & rendered, trust, good.float())
+                     good & rendered, trust, good.float(), person)
 
     def pose_targets(self, labels, crop):
         """Pose of rows as seen in these crops (window pixels -> camera pixels first)."""

@@ -75,21 +75,23 @@ def photograph(studio, window, pixels, figure, vertices, place, pose, shift=np.z
     return image, labels
 
 
-def stills(studio, framing, rng, split, first, perform, turned, count):
-    """Yields (image, labels) of `count` people numbered from `first`, a share of them `turned`; `perform` makes the
-    controls of several."""
+def stills(studio, framing, rng, args, first, perform, count):
+    """Yields (image, labels) of `count` stills numbered from `first`, args.alike of each person, a share of them
+    args.turned; `perform` makes the controls of several."""
     for start in range(0, count, BATCH):
-        people = [look.sample(rng, split) for _ in range(min(BATCH, count - start))]
+        wanted = min(BATCH, count - start)
+        people = [look.sample(rng, args.split) for _ in range(-(-wanted // args.alike))]
+        people = [person for person in people for _ in range(args.alike)][:wanted]
         controls = perform(rng, len(people))
         heads = studio.rig.identity(np.stack([p.identity for p in people]))
         faces = heads + studio.rig.expression(controls)
         for k, person in enumerate(people):
-            place = Set(rng, split, person)
-            pose = camera.pose_at(place.camera, studio.rig.landmarks(faces[k]), camera.sample_angles(rng, turned),
+            place = Set(rng, args.split, person)
+            pose = camera.pose_at(place.camera, studio.rig.landmarks(faces[k]), camera.sample_angles(rng, args.turned),
                                   camera.sample_place(rng, place.camera))
             image, labels = shoot(studio, framing, Figure(studio, person, heads[k]), faces[k], place, pose)
             number = first + start + k
-            yield image, dict(labels, controls=controls[k], identity=number, sequence=number, frame=0)
+            yield image, dict(labels, controls=controls[k], identity=number // args.alike, sequence=number, frame=0)
 
 
 def sequence(studio, framing, rng, split, number, perform, frames):
@@ -112,7 +114,7 @@ def frames_of_shard(studio, framing, args, shard, count, perform):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
     rng = np.random.default_rng([args.seed, SPLITS.index(args.split), KINDS.index(args.kind), shard])
     if args.kind == "stills":
-        yield from stills(studio, framing, rng, args.split, shard * STILLS_PER_SHARD, perform, args.turned, count)
+        yield from stills(studio, framing, rng, args, shard * STILLS_PER_SHARD, perform, count)
     else:
         for k in range(count):
             yield from sequence(studio, framing, rng, args.split, shard * SEQUENCES_PER_SHARD + k, perform, args.frames)
@@ -183,12 +185,13 @@ def main():
     parser.add_argument("--apart", type=float, default=0,
                         help="share of stills in which at most one unit of each region moves")
     parser.add_argument("--turned", type=float, default=0, help="share of stills whose head looks far to one side")
+    parser.add_argument("--alike", type=int, choices=(1, 2, 4, 8), default=1, help="stills of each person")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
     parser.add_argument("--workers", type=int, default=1)
     args = parser.parse_args()
-    if (args.leaning or args.apart or args.turned) and args.kind == "sequences":
-        parser.error("--leaning, --apart and --turned are for stills")
+    if (args.leaning or args.apart or args.turned or args.alike > 1) and args.kind == "sequences":
+        parser.error("--leaning, --apart, --turned and --alike are for stills")
     note_missing_skins(args.split)
     jobs = [(args, worker) for worker in range(args.workers)]
     if args.workers == 1:

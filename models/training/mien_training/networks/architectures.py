@@ -121,7 +121,6 @@ class Encoder(nn.Module):
     def __init__(self, blocks, tail_kernel):
         super().__init__()
         self.map_type = torch.float32  # of maps in training; bfloat16 takes half the memory traffic
-        self.frozen = None             # the first parts of the body, folded, where they do not learn (freeze)
         layers, channels = [conv_norm(3, 16, 3, 2)], 16
         for expansion, stride, padded, out in blocks:
             layers.append(InvertedResidual(channels, out, expansion, stride, padded))
@@ -135,27 +134,8 @@ class Encoder(nn.Module):
         """image [n,3,h,w] in -1..1 -> features [n,256]"""
         if not self.training:
             return self.tail(self.body(image)).flatten(1)
-        maps = self.tail[:2](self.trainable_maps(self.frozen_maps(image)))
-        return self.tail[2](maps.float()).flatten(1)
-
-    def frozen_maps(self, image):
-        """The output of the frozen parts."""
         image = image.to(self.map_type).contiguous(memory_format=torch.channels_last)
-        if not self.frozen:
-            return image
-        with torch.no_grad():
-            return self.frozen[0](image)
-
-    def trainable_maps(self, maps):
-        return self.body[len(self.frozen[0]) if self.frozen else 0:](maps)
-
-    def freeze(self, parts):
-        """Freezes the first `parts` of the body and folds their norms into their convolutions. These parts have the
-        largest maps and take most of a training step."""
-        for parameter in self.body[:parts].parameters():
-            parameter.requires_grad_(False)
-        front = nn.Sequential(*map(folded, self.body[:parts].eval()))
-        self.frozen = [front.to(self.map_type, memory_format=torch.channels_last)]  # in a list: not part of the state
+        return self.tail[2](self.tail[:2](self.body(image)).float()).flatten(1)
 
 
 class BaseNetEncoder(Encoder):
@@ -225,6 +205,14 @@ class HiFiNet(FaceNetwork):
 
 
 FACE_NETWORKS = {BASENET.name: BaseNet, HIFINET.name: HiFiNet}
+
+
+def for_inference(name, encoder, decoders):
+    """A network that outputs controls of still faces, from checkpoints of its encoder and of its decoders."""
+    network = FACE_NETWORKS[name]().eval()
+    network.load_state_dict(torch.load(encoder, map_location="cpu")["average"])
+    network.use_decoders(torch.load(decoders, map_location="cpu"))
+    return folded(network)
 
 
 class TemporalDecoder(nn.Module):

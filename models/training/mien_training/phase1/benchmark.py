@@ -27,13 +27,13 @@ class RandomFaces:
         self.images = rng.integers(0, 255, (FACES, framing.window, framing.window, 3), np.uint8)
         crop = torch.tensor(framing.middle).expand(FACES, -1)
         landmarks = face_batches.crop_to_image(crop, face_batches.template().expand(FACES, -1, -1))
-        self.controls = torch.rand(FACES, len(CONTROLS))
+        self.controls, self.learned = torch.rand(FACES, len(CONTROLS)), torch.ones(len(CONTROLS), dtype=torch.bool)
         self.labels = [landmarks, crop, self.controls, torch.ones(FACES, 175)]
         self.camera = {"rotation": torch.eye(3).expand(FACES, 3, 3),
                        "translation": torch.tensor([0.0, 0, -0.5]).expand(FACES, 3),
                        "f_px": torch.full((FACES,), 500.0),
                        "camera_wh": torch.tensor([640.0, 480.0]).expand(FACES, 2),
-                       "window": torch.tensor([320.0, 240, 200]).expand(FACES, 3),
+                       "window": torch.tensor([320.0, 240, 200]).expand(FACES, 3), "identity": torch.arange(FACES) // 4,
                        "trust": torch.ones(FACES, len(CONTROLS))}
         self.shards = [(self.images, {"controls": self.controls.numpy()})]
 
@@ -83,14 +83,14 @@ class Clock:
         setattr(owner, name, measured)
 
 
-def benchmark(network, batch, steps, freeze):
+def benchmark(network, batch, steps):
     """Seconds per face by part."""
     torch.set_num_threads(1)
     train_encoder.keep_freed_memory()
     torch.manual_seed(1)
     options = types.SimpleNamespace(network=network, name="benchmark", rate=1e-4, start_from=None, resume=False, seed=1,
-                                    batch=batch, samples=10**9, hours=None, real_share=0.2, freeze=freeze,
-                                    through=None, decoders_learn=False, plain=False)
+                                    batch=batch, samples=10**9, hours=None, real_share=0.2,
+                                    through=None, decoders_learn=False, plain=False, keep=0)
     trainer, clock = Trainer(options, torch.device("cpu"), 1, 0), Clock()
     clock.measure(trainer.mixture, "batch", "data")
     clock.measure(train_encoder, "moved_views", "data")
@@ -114,9 +114,8 @@ def main():
     parser.add_argument("--network", choices=FACE_NETWORKS, default="hifinet")
     parser.add_argument("--steps", type=int, default=16)
     parser.add_argument("--batch", type=int, default=96)
-    parser.add_argument("--freeze", type=int, default=0, metavar="PARTS", help="as in train_encoder.py")
     args = parser.parse_args()
-    best = benchmark(args.network, args.batch, args.steps, args.freeze)
+    best = benchmark(args.network, args.batch, args.steps)
     print(f"{args.network}, batches of {args.batch}, faces per second on one core")
     for part in PARTS:
         print(f"  {part:24s}{1 / max(best.get(part, 0), 1e-9):8.0f}")

@@ -12,6 +12,7 @@ from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS, PAIRED_LEFT, PAIRED_RIGHT
 from mien_training.data.face_batches import to_crop
 from mien_training.data.sequences import crop_to_image, fit_crop, template
+from mien_training.phase1.within_people import Within, from_own_mean
 
 # Lids, lips, irises and brows carry the expression.
 POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5}
@@ -25,11 +26,9 @@ RESPONDING = 0.03       # minimum spread of a teacher's control on portraits who
 # minimum spread to learn from; funnel, mouthClose and jawRight move little but correctly
 HINTING = 0.015
 NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
-# On portraits, the teacher's other controls depend on identity: an encoder that learned them, too, followed the brows
-# and pucker of a speaking person worse (docs/results/training_history.md).
-LEARNED_FROM_PORTRAITS = ("eyeBlink", "eyeLook", "jawOpen", "mouthSmile")
 TEACHER_WEIGHT = 2.0
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not dominate the sum
+SMALLEST_KEPT = 0.01    # the same in `kept`
 AT_END = 0.01           # targets as close as this to 0 or 1 count as 0 or 1
 
 
@@ -129,7 +128,7 @@ class Losses:
         self.spread = torch.ones(len(CONTROLS), device=device)
         self.side_spread = torch.ones(len(PAIRED_LEFT), device=device)
         self.importance = importance().to(device)
-        self.line, self.turn = Line(len(CONTROLS), device), Turn(device)
+        self.line, self.turn, self.differences = Line(len(CONTROLS), device), Turn(device), Within()
         self.teacher_spread, self.followed = torch.ones(len(CONTROLS)), torch.zeros(len(CONTROLS))
 
     def learn_spread(self, rendered):
@@ -142,7 +141,7 @@ class Losses:
     def learn_teacher(self, portraits):
         self.teacher_spread, followed = (v.to(self.spread.device)
                                          for v in teacher_spread(portraits.controls, HINTING))
-        self.followed = followed & followed.new_tensor([n.startswith(LEARNED_FROM_PORTRAITS) for n in CONTROLS])
+        self.followed = followed & portraits.learned.to(followed)
 
     def distance(self, predicted, truth):
         """A rounded absolute value, in eye distances: like a squared error near zero, not ruled by outliers."""
@@ -179,6 +178,13 @@ class Losses:
         error = F.smooth_l1_loss(ours / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
+    def within(self, out, batch):
+        """Discordance of the differences between faces of one person, on renders."""
+        weights = self.told(batch).float()
+        ours, truth = (from_own_mean(values, weights, batch.person)
+                       for values in (censored(out, batch.controls), batch.controls))
+        return (self.differences.loss(ours, truth, weights) * self.importance).sum() / self.importance.sum()
+
     def sides(self, out, batch):
         """Which side moves. Most faces are symmetric, so the loss of controls alone hardly requires it."""
         told = self.told(batch)
@@ -211,10 +217,21 @@ class Losses:
             return out.sum() * 0
         return F.smooth_l1_loss(*self.turn.bring(out[rows], batch.pose[rows]), beta=0.1)
 
+    def kept(self, controls, before, batch):
+        """Agreement on portraits with the controls that the initial weights predict, in their spreads (learning without
+        forgetting, Li and Hoiem 2016)."""
+        rows = batch.has_landmarks & ~batch.has_controls
+        if rows.sum() < 2:
+            return controls.sum() * 0
+        ours, before = controls[rows], before[rows]
+        error = (ours - before) / before.std(0).clamp(min=SMALLEST_KEPT)
+        return F.smooth_l1_loss(error, torch.zeros_like(error))
+
     def total(self, out, batch):
         return (2 * self.landmarks(out["landmarks"], batch) + 3 * self.alignment(out["landmarks"], batch) + 0.5
                 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
-                + 8 * self.controls(out["controls"], batch) + 4 * self.sides(out["sides"], batch)
+                + 8 * self.controls(out["controls"], batch) + 4 * self.within(out["controls"], batch)
+                + 4 * self.sides(out["sides"], batch)
                 + 2 * self.sides(unevenness(censored(out["controls"], batch.controls)), batch)
                 + TEACHER_WEIGHT * self.teacher(out["controls"], batch)
                 + 2 * self.pose(out["pose"], batch) + 2 * self.teacher_pose(out["pose"], batch))

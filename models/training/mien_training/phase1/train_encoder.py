@@ -25,7 +25,7 @@ from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS
 from mien_training.data.framing import BASENET
 from mien_training.data.sequences import sample_crops, template
-from mien_training.networks.architectures import FACE_NETWORKS
+from mien_training.networks.architectures import FACE_NETWORKS, for_inference
 from mien_training.networks.native_layers import native
 from mien_training.paths import cache
 from mien_training.phase1.dormant_units import Activity, reset_dormant
@@ -36,6 +36,7 @@ WATCHED = ("jawOpen", "eyeBlinkLeft", "mouthPucker", "mouthSmileLeft", "browInne
 MEET_EVERY = 16                             # steps between synchronizations; processes seldom wait for slower ones
 REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
+ALIKE = 4                                   # stills of one person in a row (make_synthetic.py --alike)
 GENTLE, FULL = (0.1, 0.5), (0.2, 0.5)        # share of degraded images, roughness of crops
 
 
@@ -146,9 +147,10 @@ class Trainer:
         resumed = self.restore()
         if options.through:
             self.use_decoders(torch.load(options.through, map_location="cpu"), resumed)
+        if options.keep:
+            before = for_inference(options.network, options.start_from, options.through)
+            self.before = before.to(device, memory_format=torch.channels_last)
         self.network.to(device, memory_format=torch.channels_last)
-        if options.freeze:
-            self.network.encoder.freeze(options.freeze)
         self.optimizer = Optimizer(self.network, options.rate)
         if resumed:
             self.optimizer.load_state_dict(resumed["optimizer"])
@@ -180,12 +182,15 @@ class Trainer:
     def load_data(self):
         seed = self.options.seed * 1000 + self.rank + 7919 * self.step
         self.generator = torch.Generator().manual_seed(seed)
-        rendered = lambda *kinds: face_batches.Rendered(*kinds, framing=self.framing)
-        self.rendered = rendered("train_stills")  # sequences are for phase 2, which needs features of unseen faces
+        rendered = lambda *kinds, **more: face_batches.Rendered(*kinds, framing=self.framing, **more)
+        # Sequences are for phase 2, which needs features of unseen faces.
+        self.rendered = rendered("train_stills", alike=ALIKE)
         backgrounds = face_batches.Backgrounds(seed=seed) if self.framing is BASENET else None
-        self.mixture = face_batches.Mixture(self.framing, face_batches.Portraits("train", self.framing), self.rendered,
-                                            backgrounds, seed,
-                                         self.options.real_share)
+        portraits = face_batches.Portraits("train", self.framing)
+        if self.options.distil:
+            portraits.distil(self.options.distil)
+        self.mixture = face_batches.Mixture(self.framing, portraits, self.rendered, backgrounds, seed,
+                                            self.options.real_share)
         self.val_real = face_batches.Portraits("val", self.framing)
         self.val_rendered = rendered("val_stills", "val_sequences")
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
@@ -221,7 +226,7 @@ class Trainer:
         whole = self.network(images.to(self.device))
         out = {name: value[:n] for name, value in whole.items()}
         consistency = self.losses.consistency(out["landmarks"][rows], whole["landmarks"][n:], crop.to(self.device))
-        loss = self.losses.total(out, batch) + 0.5 * consistency
+        loss = self.losses.total(out, batch) + 0.5 * consistency + self.forgetting(out["controls"], batch)
         self.optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
@@ -230,6 +235,14 @@ class Trainer:
         self.step += 1
         self.samples += n * self.world
         return loss.item()
+
+    def forgetting(self, controls, batch):
+        """The loss that keeps what the initial weights predict for the images before degradation."""
+        if not self.options.keep:
+            return 0.0
+        with torch.no_grad():
+            before = self.before(batch.images * 2 - 1)["controls"]
+        return self.options.keep * self.losses.kept(controls, before, batch)
 
     def report(self, losses):
         for source in (self.rendered, self.val_rendered):
@@ -295,8 +308,9 @@ def parse():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--report-every", type=int, default=50_000)
     parser.add_argument("--real-share", type=float, default=0.2)
-    parser.add_argument("--freeze", type=int, default=0, metavar="PARTS",
-                        help="number of the first parts of the encoder's body that do not learn")
+    parser.add_argument("--distil", metavar="FILE", help="of distil_controls.py, whose controls replace the teacher's")
+    parser.add_argument("--keep", type=float, default=0, metavar="WEIGHT",
+                        help="of agreement with the controls that the initial weights predict")
     parser.add_argument("--plain", action="store_true", help="PyTorch's own layers and maps in fp32, for comparison")
     parser.add_argument("--through", metavar="DECODERS",
                         help="trained decoders that predict controls and pose, fixed by default")
@@ -307,6 +321,8 @@ def parse():
     options = parser.parse_args()
     if options.decoders_learn and not options.through:
         parser.error("--decoders-learn needs --through")
+    if options.keep and not (options.through and options.start_from):
+        parser.error("--keep needs --through and --start-from")
     options.name = options.name or options.network
     return options
 

@@ -48,7 +48,7 @@ def main():
     found = [followed(Program(args.mien, models), args.lod, args.every) for models in args.models]
     for control, row in found[0].items():
         values = [each[control]["correlation"] for each in found]
-        if row["spread"] >= teacher.MOVES and None not in values:
+        if (row["spread"] or 0) >= teacher.MOVES and None not in values:
             print(control.ljust(20), *(f"{value:6.2f}" for value in values))
 
 

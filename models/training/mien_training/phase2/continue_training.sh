@@ -20,7 +20,7 @@ once() {  # file that a command creates, module, arguments
   [ -e "$1" ] || "$python" -m "mien_training.$2" "${@:3}"
 }
 stills() {  # split, arguments
-  "$python" -m mien_training.data.make_synthetic --framing "$network" --split "$1" --kind stills --leaning 0.6 --apart 0.4 --turned 0.25 "${@:2}"
+  "$python" -m mien_training.data.make_synthetic --framing "$network" --split "$1" --kind stills --leaning 0.6 --apart 0.4 --turned 0.25 --alike 4 "${@:2}"
 }
 
 once "$cache/faces/misplaced.npy" data.faces
@@ -35,15 +35,21 @@ if [ "$hours" != 0 ]; then
   stills val --count 2000 --workers "$processes"
   stills train --count 4000 --workers "$processes"
   once "$run/start.pt" networks.warm_start --network "$network" --out "$run/start.pt"
+  if [ "$network" = basenet ]; then  # keeps its motion, and learns from HiFiNet
+    once "$shipped/distilled.npz" phase2.distil_controls
+    lessons=(--distil "$shipped/distilled.npz" --keep 12)
+  else
+    lessons=(--decoders-learn)
+  fi
   stills train --keep 20 >"$run/stills.log" 2>&1 &  # the encoder uses each a few times
   trap 'kill %1 2>/dev/null || true' EXIT
   # A run that is complete ends immediately when it is resumed.
   nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" -m mien_training.phase1.train_encoder \
-    --network "$network" --name "$name" --start-from "$run/start.pt" --through "$decoders" --decoders-learn --real-share 0.4 \
+    --network "$network" --name "$name" --start-from "$run/start.pt" --through "$decoders" "${lessons[@]}" --real-share 0.4 \
     --rate "${RATE:-8e-4}" --hours "$hours" --samples 100000000 --report-every 150000 --resume
   kill %1
   cp "$run/last.pt" "$run/encoders/$network.pt"
-  decoders=$run/decoders.pt
+  [ "$network" = basenet ] || decoders=$run/decoders.pt
   if [ "$run/last.pt" -nt "$stream/train" ]; then  # features and decoders of an earlier encoder
     rm -rf "$stream" "$run"/{pose,trained}.pt
   fi
