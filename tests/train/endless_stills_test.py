@@ -63,6 +63,19 @@ class EndlessStills(unittest.TestCase):
         self.assertTrue((drawn == drawn[:, :1]).all())
         self.assertGreater(len(drawn.unique()), 1)
 
+    def test_a_person_has_several_stills_with_other_controls(self):
+        people = [Namespace(identity=np.zeros(3), name=name) for name in "abcd"]
+        figure, perform = mock.Mock(side_effect=lambda _, person, __: person.name), lambda rng, n: rng.random((n, 52))
+        args = Namespace(split="train", alike=4, turned=0)
+        parts = {"Set": mock.DEFAULT, "camera": mock.DEFAULT, "look": mock.Mock(sample=mock.Mock(side_effect=people)),
+                 "Figure": figure, "shoot": lambda _, __, who, *rest: (who, {})}
+        with mock.patch.multiple(make_synthetic, **parts):
+            rng = np.random.default_rng(1)
+            found = list(make_synthetic.stills(mock.MagicMock(), None, rng, args, 2000, perform, 10))
+        self.assertEqual("".join(who for who, _ in found), "aaaabbbbcc")
+        self.assertEqual([labels["identity"] for _, labels in found], [500] * 4 + [501] * 4 + [502] * 2)
+        self.assertEqual(len({tuple(labels["controls"]) for _, labels in found}), 10)
+
     def test_nothing_is_deleted_with_a_count(self):
         self.shard(0)
         make_synthetic.delete_old(self.place, None)
