@@ -14,14 +14,14 @@ class WithinPeople(unittest.TestCase):
         self.truth, self.noise, self.level = random(2000, 2), random(2000, 2), random(500, 2)[self.person]
         self.weight = torch.ones(2000, 2)
 
-    def loss(self, ours, weight=None):
+    def loss(self, ours, weight):
         """The value where the running means have settled."""
-        within, weight = Within(), self.weight if weight is None else weight
-        return within.loss(*(from_own_mean(v, weight, self.person) for v in (ours, self.truth)), weight)
+        differences = (from_own_mean(v, weight, self.person) for v in (ours, self.truth))
+        return Within().loss(*differences, weight)
 
     def test_a_persons_level_does_not_count(self):
-        self.assertTrue(torch.allclose(self.loss(0.8 * self.truth), self.loss(0.8 * self.truth + 3 * self.level),
-                                       atol=1e-4))
+        alone, moved = (self.loss(0.8 * self.truth + shift, self.weight) for shift in (0, 3 * self.level))
+        self.assertTrue(torch.allclose(alone, moved, atol=1e-4))
 
     def test_an_uncertain_answer_keeps_the_true_amplitude(self):
         gain = torch.full((2,), 0.3, requires_grad=True)

@@ -14,7 +14,7 @@ from mien_training.data.augment import OfSequence
 from mien_training.data.expressions import CONTROLS, MIRROR
 from mien_training.data.framing import BASENET, HIFINET
 from mien_training.data.video_codec import some_coded
-from mien_training.networks.architectures import BaseNet, HiFiNet, folded
+from mien_training.networks.architectures import FACE_NETWORKS, BaseNet, HiFiNet, folded
 
 CODED = 0.4  # share of sequences
 
@@ -161,6 +161,13 @@ class HiFiNetView:
 def load(checkpoint, network):
     network.load_state_dict(torch.load(checkpoint, map_location="cpu")["average"])
     return network.eval()
+
+
+def for_inference(name, encoder, decoders):
+    """A network that outputs controls of still faces, from checkpoints of its encoder and of its decoders."""
+    network = load(encoder, FACE_NETWORKS[name]())
+    network.use_decoders(torch.load(decoders, map_location="cpu"))
+    return folded(network)
 
 
 class Mirrored:

@@ -207,14 +207,6 @@ class HiFiNet(FaceNetwork):
 FACE_NETWORKS = {BASENET.name: BaseNet, HIFINET.name: HiFiNet}
 
 
-def for_inference(name, encoder, decoders):
-    """A network that outputs controls of still faces, from checkpoints of its encoder and of its decoders."""
-    network = FACE_NETWORKS[name]().eval()
-    network.load_state_dict(torch.load(encoder, map_location="cpu")["average"])
-    network.use_decoders(torch.load(decoders, map_location="cpu"))
-    return folded(network)
-
-
 class TemporalDecoder(nn.Module):
     """Three causal convolutions over time (kernel 2), one LSTM, one fully connected layer."""
 

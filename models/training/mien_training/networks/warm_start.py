@@ -44,8 +44,8 @@ def weight_of(layer, convolution):
 def read_weights(network, layers, place):
     """Copies the weights of a file to a network; `place` puts those of a layer into a ConvNorm."""
     encoder = iter([layer for layer in layers["encoder"] if layer.weight is not None])
-    for conv_norm in in_order(network.encoder):
-        conv_norm[0].weight.copy_(weight_of(layer := next(encoder), conv_norm[0]))
+    for conv_norm, layer in zip(in_order(network.encoder), encoder):
+        conv_norm[0].weight.copy_(weight_of(layer, conv_norm[0]))
         place(conv_norm, layer)
     last, project = next(encoder), network.encoder.tail[2]
     project.weight.copy_(weight_of(last, project))

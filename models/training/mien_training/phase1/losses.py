@@ -74,6 +74,11 @@ def unevenness(controls):
     return controls[..., PAIRED_LEFT] - controls[..., PAIRED_RIGHT]
 
 
+def of_portraits(batch):
+    """Rows of portraits that show a face well, bool [n]."""
+    return batch.has_landmarks & ~batch.has_controls
+
+
 class Line:
     """For every control the linear map from our output to the teacher's, by running means."""
 
@@ -195,7 +200,7 @@ class Losses:
 
     def teacher(self, out, batch):
         """Agreement with the teacher on portraits, in its spreads."""
-        rows = batch.has_landmarks & ~batch.has_controls
+        rows = of_portraits(batch)
         weights = self.importance * self.followed
         if not rows.any() or not weights.any():
             return out.sum() * 0
@@ -212,19 +217,15 @@ class Losses:
 
     def teacher_pose(self, out, batch):
         """Agreement with the teacher's head rotation on portraits."""
-        rows = batch.has_landmarks & ~batch.has_controls
+        rows = of_portraits(batch)
         if not rows.any():
             return out.sum() * 0
         return F.smooth_l1_loss(*self.turn.bring(out[rows], batch.pose[rows]), beta=0.1)
 
-    def kept(self, controls, before, batch):
-        """Agreement on portraits with the controls that the initial weights predict, in their spreads (learning without
-        forgetting, Li and Hoiem 2016)."""
-        rows = batch.has_landmarks & ~batch.has_controls
-        if rows.sum() < 2:
-            return controls.sum() * 0
-        ours, before = controls[rows], before[rows]
-        error = (ours - before) / before.std(0).clamp(min=SMALLEST_KEPT)
+    def kept(self, controls, before):
+        """Agreement of the controls of portraits [n,52] with those that the initial weights predict, in the spreads of
+        these (learning without forgetting, Li and Hoiem 2016)."""
+        error = (controls - before) / before.std(0).clamp(min=SMALLEST_KEPT)
         return F.smooth_l1_loss(error, torch.zeros_like(error))
 
     def total(self, out, batch):

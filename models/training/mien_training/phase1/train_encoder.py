@@ -24,12 +24,12 @@ from mien_training.data import augment, face_batches
 from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS
 from mien_training.data.framing import BASENET
-from mien_training.data.sequences import sample_crops, template
-from mien_training.networks.architectures import FACE_NETWORKS, for_inference
+from mien_training.data.sequences import for_inference, sample_crops, template
+from mien_training.networks.architectures import FACE_NETWORKS
 from mien_training.networks.native_layers import native
 from mien_training.paths import cache
 from mien_training.phase1.dormant_units import Activity, reset_dormant
-from mien_training.phase1.losses import RESPONDING, Losses
+from mien_training.phase1.losses import RESPONDING, Losses, of_portraits
 from mien_training.phase1.optimizer import Optimizer
 
 WATCHED = ("jawOpen", "eyeBlinkLeft", "mouthPucker", "mouthSmileLeft", "browInnerUp")
@@ -237,12 +237,13 @@ class Trainer:
         return loss.item()
 
     def forgetting(self, controls, batch):
-        """The loss that keeps what the initial weights predict for the images before degradation."""
-        if not self.options.keep:
+        """The loss that keeps what the initial weights predict for portraits before degradation."""
+        rows = of_portraits(batch)
+        if not self.options.keep or rows.sum() < 2:  # a single one has no spread
             return 0.0
         with torch.no_grad():
-            before = self.before(batch.images * 2 - 1)["controls"]
-        return self.options.keep * self.losses.kept(controls, before, batch)
+            before = self.before(batch.images[rows] * 2 - 1)["controls"]
+        return self.options.keep * self.losses.kept(controls[rows], before)
 
     def report(self, losses):
         for source in (self.rendered, self.val_rendered):

@@ -28,6 +28,8 @@ class Within:
         mean = lambda x: (weight * x).sum(0) / weight.sum(0).clamp(min=1)
         off, moved = mean((ours - truth) ** 2), mean(ours ** 2)
         now = torch.stack([off, moved + mean(truth ** 2)]).detach()
-        self.means = now if self.means is None else self.means.lerp(now, 1 - DECAY)
+        if self.means is None:
+            self.means = now
+        self.means = self.means.lerp(now, 1 - DECAY)
         spread = self.means[1] + FLOOR
         return (off - self.means[0] / spread * moved) / spread

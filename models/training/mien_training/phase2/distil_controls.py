@@ -16,7 +16,7 @@ from mien_training.data.crop_sampler import sample
 from mien_training.data.expressions import MIRROR
 from mien_training.data.face_batches import Portraits
 from mien_training.data.framing import HIFINET
-from mien_training.networks.architectures import for_inference
+from mien_training.data.sequences import for_inference
 from mien_training.paths import cache
 from mien_training.phase2.decoder_output import output_controls
 
