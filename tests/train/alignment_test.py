@@ -1,4 +1,4 @@
-"""Losses of encoders: the crops that the tracker fits to landmarks, and what portraits teach."""
+"""Losses of encoders: the crops that the tracker fits to landmarks, and what portraits teach. False faces."""
 import unittest
 from types import SimpleNamespace
 
@@ -6,7 +6,7 @@ import numpy as np
 import torch
 
 from mien_training.data.expressions import CONTROLS, INDEX
-from mien_training.data.face_batches import LEARNED_FROM_TEACHER, Batch, looseness
+from mien_training.data.face_batches import FALSE_FACES, LEARNED_FROM_TEACHER, Backgrounds, Batch, looseness
 from mien_training.data.framing import BASENET
 from mien_training.data.sequences import template
 from mien_training.phase1.losses import Losses
@@ -80,6 +80,46 @@ class Portraits(unittest.TestCase):
     def test_teach_smiles_jaw_eyelids_and_gaze_only(self):
         assert all(self.loss(name) > 0.01 for name in ("mouthSmileLeft", "jawOpen", "eyeBlinkRight", "eyeLookInLeft"))
         assert all(self.loss(name) < 1e-4 for name in ("mouthPucker", "browDownLeft", "eyeSquintLeft", "eyeLookUpLeft"))
+
+
+class Mistaken(torch.nn.Module):
+    """Takes bright pieces for a face, where the crop is: it believes to be aligned."""
+
+    def __init__(self):
+        super().__init__()
+        self.face = torch.nn.Linear(1, 1)
+        self.landmarks = torch.nn.Parameter(template())
+
+    def forward(self, images):
+        return {"face": images.mean((1, 2, 3)) * 10, "landmarks": self.landmarks.expand(len(images), -1, -1)}
+
+
+class FalseFaces(unittest.TestCase):
+    def setUp(self):
+        self.places = Backgrounds.__new__(Backgrounds)
+        self.places.mistakes, self.places.rng = 0, np.random.default_rng(3)
+        side = BASENET.window
+        self.places.mistaken, self.places.mistaken_crop = np.zeros((50, side, side, 3), np.uint8), torch.zeros(50, 4)
+
+    def show(self, bright, count=1500):
+        """Dark pieces, of which one in `bright` is brighter."""
+        side = BASENET.window
+        levels = np.where(np.arange(count) % bright, 100, 180).astype(np.uint8)
+        self.places.pieces = lambda count: np.broadcast_to(levels[:count, None, None, None], (count, side, side, 3))
+
+    def test_bias_leaves_the_accepted_share(self):
+        self.show(bright=1000)
+        self.assertEqual(self.places.face_bias(Mistaken(), 1), 0, "already fewer than the share")
+        self.show(bright=100)
+        bias = self.places.face_bias(Mistaken(), 1)
+        self.assertGreater(1 / 100, FALSE_FACES)
+        self.assertAlmostEqual(bias, -10 * (2 * 180 / 255 - 1), 2)
+
+    def test_mistakes_are_kept_after_each_alignment(self):
+        self.show(bright=100)
+        self.places.mine(Mistaken())
+        self.assertEqual(self.places.mistakes, 3 * 15)
+        self.assertTrue((self.places.mistaken[:45] == 180).all())
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmark
 # The teacher's other controls depend on identity: an encoder that learned them, too, followed the brows and pucker of a
 # speaking person worse (docs/results/training_history.md).
 LEARNED_FROM_TEACHER = ("eyeBlink", "eyeLook", "jawOpen", "mouthSmile")
+FALSE_FACES = 0.0015   # share of pieces of environments that may count as faces
 NEAR_PROFILE_ODDS = 4  # turned heads are rare and difficult
 FRONTAL = np.radians(23)
 
@@ -131,18 +132,28 @@ class Backgrounds:
         return images
 
     @torch.no_grad()
-    def mine(self, network, count=1500, alignments=2, believed=0.15):
-        """Lets the network align itself on new pieces, as the tracker does, and keeps the pieces that it accepts as a
-        face."""
+    def aligned(self, network, alignments, count=1500):
+        """Lets the network align itself on new pieces, as the tracker does: images, crops and logits of the face
+        probability before the first alignment and after each."""
         network.eval()
         images = self.pieces(count)
         crop = torch.tensor(BASENET.middle).expand(count, -1)
         for _ in range(alignments + 1):
             out = network((sample(images, crop, BASENET) * 2 - 1).to(next(network.parameters()).device))
-            face = torch.sigmoid(out["face"]).cpu()
-            self.remember(images, crop, (face > believed) & within(crop))
+            yield images, crop, out["face"].cpu()
             crop = fit_crop(template(), crop_to_image(crop, out["landmarks"].cpu()))
         network.train()
+
+    def mine(self, network, alignments=2, believed=0.15):
+        """Keeps pieces that the network accepts as a face."""
+        for images, crop, face in self.aligned(network, alignments):
+            self.remember(images, crop, (torch.sigmoid(face) > believed) & within(crop))
+
+    def face_bias(self, network, alignments=3):
+        """What to add to the logit of the face probability for FALSE_FACES of the aligned pieces to count as faces."""
+        last = [list(self.aligned(network, alignments))[-1] for _ in range(4)]
+        logits = torch.cat([face.masked_fill(~within(crop), -99) for _, crop, face in last])
+        return -max(0.0, float(logits.sort(descending=True).values[int(FALSE_FACES * len(logits))]))
 
     def remember(self, images, crop, chosen):
         """The newest false positives replace the oldest."""

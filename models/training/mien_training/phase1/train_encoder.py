@@ -249,11 +249,13 @@ class Trainer:
         for source in (self.rendered, self.val_rendered):
             source.refresh()
         self.losses.learn_spread(self.rendered)
+        average = self.average.network
+        if self.progress() >= 1 and self.mixture.backgrounds:
+            average.face.bias.data += self.mixture.backgrounds.face_bias(average)
         report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
-                  "revived": self.revived, **validate(self.average.network, self.val_real, self.val_rendered)}
+                  "revived": self.revived, **validate(average, self.val_real, self.val_rendered)}
         self.history.append(report)
         tqdm.write(json.dumps({k: round(v, 4) for k, v in report.items()}))
-        average = self.average.network
         save(self.run / "last.pt", {"network": self.network.state_without_decoders(),
                                     "average": average.state_without_decoders(),
                                     "decoders": self.network.decoders(), "average_decoders": average.decoders(),

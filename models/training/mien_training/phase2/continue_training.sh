@@ -88,4 +88,4 @@ done
 "$python" -m mien_training.phase2.compare_decoders --network "$network" --stream "$stream" --before-stream "$before" "$shipped/${network}_decoders.pt" \
   "$run"/{kept,kept_refitted,trained,trained_refitted}.pt | tee "$run/compared.txt"
 echo "$network: export the best: $python -m mien_training.networks.export $network $run/encoders/$network.pt DECODERS.pt"
-echo "then compare it with models/: $python -m mien_training.phase2.check_speech models EXPORTED; then check_portraits instead of check_speech"
+echo "then compare it with models/: $python -m mien_training.phase2.check_encoder models EXPORTED"

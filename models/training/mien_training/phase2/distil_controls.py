@@ -2,7 +2,7 @@
 
 usage: python3 -m mien_training.phase2.distil_controls [--checkpoints FOLDER]
 Writes FOLDER/distilled.npz: controls [n,52], each the mean of a portrait's and of its mirror image's, and
-supported bool [52]. HiFiNet follows a person who speaks better than BaseNet does (check_speech.py), and MediaPipe's
+supported bool [52]. HiFiNet follows a person who speaks better than BaseNet does (check_encoder.py), and MediaPipe's
 controls depend on identity: with them, BaseNet's pucker followed this person worse.
 """
 import argparse

@@ -10,7 +10,7 @@ from unittest import mock
 import numpy as np
 
 from mien_training.data.expressions import CONTROLS, INDEX
-from mien_training.phase2 import check_portraits, check_speech
+from mien_training.phase2 import check_encoder
 
 FRAMES, STEMS = 20, ["bbaf2n", "bbal7s", "bbas3a"]
 UNSEEN = 7  # frame of each clip without a face according to the teacher
@@ -42,17 +42,19 @@ class CheckSpeech(unittest.TestCase):
             "t_ms": 40.0 * np.arange(FRAMES), "status": np.where(np.arange(FRAMES) == 3, "lost", "tracking")})
 
     def test_clips_have_the_rows_of_their_names(self):
-        found = list(check_speech.clips(2))
+        found = list(check_encoder.clips(2))
         self.assertEqual([path.stem for path, *_ in found], STEMS[::2])
         np.testing.assert_array_equal(found[1][1][:, INDEX["jawOpen"]], self.truth[2 * FRAMES:, 1])
         np.testing.assert_array_equal(found[1][2], self.found[2 * FRAMES:])
         self.assertTrue(np.isnan(found[0][1][:, INDEX["tongueOut"]]).all())
 
     def test_only_motion_within_a_clip_counts(self):
-        rows = check_speech.followed(self, 1, 1)
+        rows = check_encoder.followed(self, 1, 1)
         self.assertEqual(set(rows), {"jawOpen", "mouthPucker"})
         self.assertAlmostEqual(rows["jawOpen"]["correlation"], 1, 3)
         self.assertAlmostEqual(rows["mouthPucker"]["correlation"], -1, 3)
+        self.assertEqual([line.split() for line in check_encoder.speech_figures([rows, rows])],
+                         [["jawOpen", "1.00", "1.00"], ["mouthPucker", "-1.00", "-1.00"]])
 
 
 class CheckPortraits(unittest.TestCase):
@@ -62,8 +64,8 @@ class CheckPortraits(unittest.TestCase):
         portraits.__len__.return_value = 4
         right = np.array([True, True, False, False])
         summary = lambda rows: {"found": right[rows].mean(), "error": 0.0375, "correlation": 0.75}
-        with mock.patch.object(check_portraits, "Answers", lambda *_: SimpleNamespace(summary=summary)):
-            line = check_portraits.figures(None, 4, portraits)
+        with mock.patch.object(check_encoder, "Answers", lambda *_: SimpleNamespace(summary=summary)):
+            line = check_encoder.portrait_figures(None, 4, portraits)
         self.assertIn("50.0% of 4 correct, 66.7% of 3 up to 50 degrees", line)
         self.assertIn("error 0.0375, correlation 0.750", line)
 
