@@ -1,14 +1,16 @@
 """Losses of encoders: the crops that the tracker fits to landmarks, and what portraits teach. False faces."""
 import unittest
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 import torch
 
 from mien_training.data.expressions import CONTROLS, INDEX
-from mien_training.data.face_batches import FALSE_FACES, LEARNED_FROM_TEACHER, Backgrounds, Batch, looseness
+from mien_training.data.face_batches import LEARNED_FROM_TEACHER, Backgrounds, Batch, looseness
 from mien_training.data.framing import BASENET
 from mien_training.data.sequences import template
+from mien_training.phase1 import train_encoder
 from mien_training.phase1.losses import Losses
 
 
@@ -87,11 +89,14 @@ class Mistaken(torch.nn.Module):
 
     def __init__(self):
         super().__init__()
-        self.face = torch.nn.Linear(1, 1)
+        self.framing, self.face = BASENET, torch.nn.Linear(1, 1)
+        torch.nn.init.constant_(self.face.weight, 10)
+        torch.nn.init.zeros_(self.face.bias)
         self.landmarks = torch.nn.Parameter(template())
 
     def forward(self, images):
-        return {"face": images.mean((1, 2, 3)) * 10, "landmarks": self.landmarks.expand(len(images), -1, -1)}
+        return {"face": self.face(images.mean((1, 2, 3))[:, None])[:, 0],
+                "landmarks": self.landmarks.expand(len(images), -1, -1)}
 
 
 class FalseFaces(unittest.TestCase):
@@ -107,13 +112,16 @@ class FalseFaces(unittest.TestCase):
         levels = np.where(np.arange(count) % bright, 100, 180).astype(np.uint8)
         self.places.pieces = lambda count: np.broadcast_to(levels[:count, None, None, None], (count, side, side, 3))
 
-    def test_bias_leaves_the_accepted_share(self):
-        self.show(bright=1000)
-        self.assertEqual(self.places.face_bias(Mistaken(), 1), 0, "already fewer than the share")
+    def test_thresholds_fit_after_calibration(self):
         self.show(bright=100)
-        bias = self.places.face_bias(Mistaken(), 1)
-        self.assertGreater(1 / 100, FALSE_FACES)
-        self.assertAlmostEqual(bias, -10 * (2 * 180 / 255 - 1), 2)
+        images = torch.full((50, 3, 8, 8), 250 / 255)
+        exact = SimpleNamespace(part=lambda *_: SimpleNamespace(images=images))
+        network = Mistaken()
+        with mock.patch.object(train_encoder.face_batches, "Mixture", lambda *_, **options: exact):
+            train_encoder.calibrate(network, self.places, None)
+        logit = lambda level: network.face(torch.tensor([level / 255 * 2 - 1])).item()
+        self.assertAlmostEqual(logit(180), train_encoder.RARE_PLACE[1], 3)
+        self.assertAlmostEqual(logit(250), train_encoder.RARE_FACE[1], 3)
 
     def test_mistakes_are_kept_after_each_alignment(self):
         self.show(bright=100)

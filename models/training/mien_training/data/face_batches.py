@@ -26,7 +26,6 @@ Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmark
 # The teacher's other controls depend on identity: an encoder that learned them, too, followed the brows and pucker of a
 # speaking person worse (docs/results/training_history.md).
 LEARNED_FROM_TEACHER = ("eyeBlink", "eyeLook", "jawOpen", "mouthSmile")
-FALSE_FACES = 0.0015   # share of pieces of environments that may count as faces
 NEAR_PROFILE_ODDS = 4  # turned heads are rare and difficult
 FRONTAL = np.radians(23)
 
@@ -149,11 +148,10 @@ class Backgrounds:
         for images, crop, face in self.aligned(network, alignments):
             self.remember(images, crop, (torch.sigmoid(face) > believed) & within(crop))
 
-    def face_bias(self, network, alignments=3):
-        """What to add to the logit of the face probability for FALSE_FACES of the aligned pieces to count as faces."""
+    def logits(self, network, alignments=3):
+        """Of the face probability on aligned pieces; -99 where the crop has left the piece."""
         last = [list(self.aligned(network, alignments))[-1] for _ in range(4)]
-        logits = torch.cat([face.masked_fill(~within(crop), -99) for _, crop, face in last])
-        return -max(0.0, float(logits.sort(descending=True).values[int(FALSE_FACES * len(logits))]))
+        return torch.cat([face.masked_fill(~within(crop), -99) for _, crop, face in last])
 
     def remember(self, images, crop, chosen):
         """The newest false positives replace the oldest."""

@@ -1,7 +1,6 @@
 """A checkpoint of phase 1 from models/basenet.mien or hifinet.mien, to continue training.
 
-usage: python3 -m mien_training.networks.warm_start --network basenet|hifinet --out CHECKPOINT [--decoders CHECKPOINT]
-       [--model FILE.mien]
+usage: python3 -m mien_training.networks.warm_start --network basenet|hifinet --out CHECKPOINT
 The file has neither batch norm nor the heads that exist only in training. New norms are measured layer by layer on
 training faces, so they change nothing at first; the heads are solved for on rendered faces (ridge regression).
 """
@@ -119,28 +118,16 @@ def decoders_of(path):
             "supported": weight_reader.constant(path, "control_supported")}
 
 
-def save_start(network, path):
-    """A checkpoint to train on from."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    state = network.state_dict()
-    with whole(path) as out:
-        torch.save({"network": state, "average": state, "samples": 0}, out)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
-    parser.add_argument("--model", type=Path)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--decoders", type=Path, help="where to write the file's decoders, as train_decoders.py does")
     options = parser.parse_args()
     torch.set_num_threads(1)
-    model = options.model or ROOT / f"models/{options.network}.mien"
-    if options.decoders:
-        with whole(options.decoders) as out:
-            torch.save(decoders_of(model), out)
-    network = network_of(model, options.network)
-    save_start(network, options.out)
+    state = network_of(ROOT / f"models/{options.network}.mien", options.network).state_dict()
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    with whole(options.out) as out:
+        torch.save({"network": state, "average": state, "samples": 0}, out)
 
 
 if __name__ == "__main__":

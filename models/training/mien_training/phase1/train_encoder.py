@@ -37,6 +37,7 @@ MEET_EVERY = 16                             # steps between synchronizations; pr
 REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
 ALIKE = 4                                   # stills of one person in a row (make_synthetic.py --alike)
+RARE_PLACE, RARE_FACE = (0.995, -1.0), (0.05, 7.6)  # quantiles of logits of the face probability
 GENTLE, FULL = (0.1, 0.5), (0.2, 0.5)        # share of degraded images, roughness of crops
 
 
@@ -92,6 +93,20 @@ def validate(network, portraits, rendered, seed=11):
         report[prefix + "controls_mean"] = float(values[responding].mean())
     network.train()
     return report
+
+
+@torch.no_grad()
+def calibrate(network, backgrounds, portraits, seed=12):
+    """Maps the logit of the face probability linearly to values that the tracker's thresholds fit."""
+    exact = face_batches.Mixture(network.framing, portraits, None, None, seed, roughness=0)
+    places = backgrounds.logits(network)
+    network.eval()
+    faces = network((exact.part(portraits, 1000, 0).images * 2 - 1).to(network.face.bias.device))["face"].cpu()
+    low, high = places.quantile(RARE_PLACE[0]), faces.quantile(RARE_FACE[0])
+    scale = (RARE_FACE[1] - RARE_PLACE[1]) / (high - low).clamp(min=1)
+    network.face.weight *= scale
+    network.face.bias.sub_(low).mul_(scale).add_(RARE_PLACE[1])
+    network.train()
 
 
 class Average:
@@ -251,7 +266,7 @@ class Trainer:
         self.losses.learn_spread(self.rendered)
         average = self.average.network
         if self.progress() >= 1 and self.mixture.backgrounds:
-            average.face.bias.data += self.mixture.backgrounds.face_bias(average)
+            calibrate(average, self.mixture.backgrounds, self.val_real)
         report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
                   "revived": self.revived, **validate(average, self.val_real, self.val_rendered)}
         self.history.append(report)
