@@ -107,7 +107,7 @@ class FalseFaces(unittest.TestCase):
         self.places.mistaken, self.places.mistaken_crop = np.zeros((50, side, side, 3), np.uint8), torch.zeros(50, 4)
 
     def show(self, bright, count=1500):
-        """Dark pieces, of which one in `bright` is brighter."""
+        """Dark pieces; one in `bright` is brighter."""
         side = BASENET.window
         levels = np.where(np.arange(count) % bright, 100, 180).astype(np.uint8)
         self.places.pieces = lambda count: np.broadcast_to(levels[:count, None, None, None], (count, side, side, 3))

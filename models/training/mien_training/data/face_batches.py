@@ -132,8 +132,8 @@ class Backgrounds:
 
     @torch.no_grad()
     def aligned(self, network, alignments, count=1500):
-        """Lets the network align itself on new pieces, as the tracker does: images, crops and logits of the face
-        probability before the first alignment and after each."""
+        """Lets the network align itself on new pieces, as the tracker does: images, crops and log-odds of a face
+        before the first alignment and after each."""
         network.eval()
         images = self.pieces(count)
         crop = torch.tensor(BASENET.middle).expand(count, -1)
@@ -148,8 +148,8 @@ class Backgrounds:
         for images, crop, face in self.aligned(network, alignments):
             self.remember(images, crop, (torch.sigmoid(face) > believed) & within(crop))
 
-    def logits(self, network, alignments=3):
-        """Of the face probability on aligned pieces; -99 where the crop has left the piece."""
+    def log_odds(self, network, alignments=3):
+        """Of a face on aligned pieces; -99 where the crop has left the piece."""
         last = [list(self.aligned(network, alignments))[-1] for _ in range(4)]
         return torch.cat([face.masked_fill(~within(crop), -99) for _, crop, face in last])
 

@@ -37,7 +37,7 @@ MEET_EVERY = 16                             # steps between synchronizations; pr
 REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
 ALIKE = 4                                   # stills of one person in a row (make_synthetic.py --alike)
-RARE_PLACE, RARE_FACE = (0.995, -1.0), (0.05, 7.6)  # quantiles of logits of the face probability
+RARE_PLACE, RARE_FACE = (0.995, -1.0), (0.05, 7.6)  # quantiles of the log-odds of a face
 GENTLE, FULL = (0.1, 0.5), (0.2, 0.5)        # share of degraded images, roughness of crops
 
 
@@ -97,9 +97,9 @@ def validate(network, portraits, rendered, seed=11):
 
 @torch.no_grad()
 def calibrate(network, backgrounds, portraits, seed=12):
-    """Maps the logit of the face probability linearly to values that the tracker's thresholds fit."""
+    """Maps the log-odds of a face linearly to values that the tracker's thresholds fit."""
     exact = face_batches.Mixture(network.framing, portraits, None, None, seed, roughness=0)
-    places = backgrounds.logits(network)
+    places = backgrounds.log_odds(network)
     network.eval()
     faces = network((exact.part(portraits, 1000, 0).images * 2 - 1).to(network.face.bias.device))["face"].cpu()
     low, high = places.quantile(RARE_PLACE[0]), faces.quantile(RARE_FACE[0])
