@@ -51,7 +51,9 @@ def answers(ask, picture, rng):
     for k in range(VIEWS):
         mirrored = k % 2 == 1
         matrix, angle = view(rng, mirrored, size)
-        shown = cv2.warpAffine(wide, matrix, wide.shape[1::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        # Points and the map have pixel edges at whole numbers; OpenCV has pixel centres there.
+        by_centres = np.column_stack([matrix[:, :2], matrix[:, 2] + (matrix[:, :2].sum(1) - 1) / 2])
+        shown = cv2.warpAffine(wide, by_centres, wide.shape[1::-1], borderMode=cv2.BORDER_REPLICATE)
         answer = ask(shown)
         if answer is None:
             continue
