@@ -99,7 +99,7 @@ class Tracker {
   [[nodiscard]] float next_coarse_roll() const;
   // Roll of the lost face; 0 if it was almost upright.
   [[nodiscard]] float lost_roll() const;
-  void verify_next(Frame& frame);
+  void verify_next(Frame& frame, int alignments);
   // Counts frames without a face. True if detection runs on this one.
   [[nodiscard]] bool detection_is_due();
   void detect_in_tile(Frame& frame);

@@ -17,6 +17,9 @@ constexpr float kFaded = 1e-4f;  // smaller controls become 0
 // Limits of a crop's side, relative to the longer side of the image.
 constexpr float kMinFace = 0.02f;
 constexpr float kMaxFace = 4.0f;
+// Weight of HiFiNet's landmarks in the mean with BaseNet's: its error on validation portraits is 2
+// % below that of HiFiNet alone.
+constexpr float kHiFiNetWeight = 0.8f;
 constexpr float kDetectorScoreWeight = 0.4f;  // relative to the face probability's
 // Added to the log-odds required of a detection at a roll other than 0: detection tries several
 // rolls at each place, which multiplies its false positives.
@@ -163,11 +166,13 @@ void Face::encode_hifinet(Frame& frame) {
   std::transform(encoding.landmarks.begin(), encoding.landmarks.end(),
                  state_.encoding.landmarks.begin(), state_.refinement.begin(),
                  [side](Point fine, Point coarse) {
-                   return Point{(fine.x - coarse.x) / side, (fine.y - coarse.y) / side};
+                   return Point{kHiFiNetWeight / side * (fine.x - coarse.x),
+                                kHiFiNetWeight / side * (fine.y - coarse.y)};
                  });
 }
 
-// HiFiNet's landmarks; on frames without HiFiNet, BaseNet's with HiFiNet's latest refinement.
+// The weighted mean of both networks' landmarks; on frames without HiFiNet, BaseNet's with the
+// latest refinement.
 Landmarks Face::landmarks(std::int32_t level) const {
   Landmarks refined = state_.encoding.landmarks;
   if (level == kMinLevel) {

@@ -112,7 +112,7 @@ class Face {
     Crop crop;                          // for the next frame
     Encoding encoding;                  // the latest one of the face
     Features hifinet_features = {};     // of its latest run
-    Landmarks refinement = {};          // HiFiNet's landmarks minus BaseNet's, in sides of the crop
+    Landmarks refinement = {};          // by HiFiNet, of BaseNet's landmarks, in sides of the crop
     FaceOutput raw;
     FaceOutput smoothed;
     bool is_new = true;  // no previous output to smooth with
