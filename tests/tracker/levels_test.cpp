@@ -73,7 +73,8 @@ TEST(Levels, HiFiNetRefinesLandmarksFromLevelTwo) {
         dx += (fine.landmarks[i][0] - coarse.landmarks[i][0]) / MIEN_LANDMARK_COUNT;
         dy += (fine.landmarks[i][1] - coarse.landmarks[i][1]) / MIEN_LANDMARK_COUNT;
       }
-      EXPECT_NEAR(dx / fine.box[2], 0.8 * kRefinedBy, 0.003) << "level " << lod << ", frame " << frame;
+      EXPECT_NEAR(dx / fine.box[2], 0.8 * kRefinedBy, 0.003)
+          << "level " << lod << ", frame " << frame;
       EXPECT_NEAR(dy / fine.box[2], 0.0, 0.003);
     }
   }
