@@ -14,7 +14,7 @@ from tqdm import tqdm
 from mien_convert.atomic_files import whole
 from mien_training.data import portrait_labels
 from mien_training.data.framing import BASENET, FRAMINGS
-from mien_training.data.image_border import continued
+from mien_training.data.image_border import continued, warped
 from mien_training.data.sequences import fit_crop, template
 from mien_training.paths import cache
 
@@ -66,10 +66,9 @@ def window(image, centre, side, pixels=BASENET.window):
         centre = centre + margin
     scale = pixels / side
     matrix = np.array([[scale, 0, pixels / 2 - scale * centre[0]], [0, scale, pixels / 2 - scale * centre[1]]])
-    matrix[:, 2] += scale * 0.5 - 0.5  # OpenCV puts pixel centres at whole numbers
     if scale < 0.7:
         image = cv2.GaussianBlur(image, (0, 0), 0.4 / scale)
-    return cv2.warpAffine(image, matrix, (pixels, pixels), flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return warped(image, matrix, (pixels, pixels))
 
 
 def misplaced(crop, rng):

@@ -1,4 +1,4 @@
-"""Continues images beyond their border, without PyTorch, which the environment of the teacher lacks."""
+"""Images under affine maps, and beyond their border, without PyTorch, which the environment of the teacher lacks."""
 import cv2
 import numpy as np
 
@@ -14,3 +14,10 @@ def continued(image, share=0.6):
     soft = fine(cv2.GaussianBlur(coarse(out), (0, 0), 3))
     sharp = np.maximum(inside, fine(cv2.GaussianBlur(coarse(inside), (0, 0), 1.5)))[..., None]
     return np.uint8(out * sharp + soft * (1 - sharp) + 0.5), margin
+
+
+def warped(image, matrix, size_wh):
+    """The image under an affine map [2,3] of points whose pixels have their edges at whole numbers."""
+    centred = matrix.copy()  # OpenCV has the pixels' centres there
+    centred[:, 2] += (matrix[:, :2].sum(1) - 1) / 2
+    return cv2.warpAffine(image, centred, size_wh, flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)

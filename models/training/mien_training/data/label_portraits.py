@@ -20,7 +20,7 @@ from mien_convert.atomic_files import whole
 from mien_training.data import landmark_points as lp
 from mien_training.data import portrait_labels
 from mien_training.data.expressions import CONTROLS, MIRROR
-from mien_training.data.image_border import continued
+from mien_training.data.image_border import continued, warped
 from mien_training.paths import cache, data
 
 VIEWS = 6
@@ -51,10 +51,7 @@ def answers(ask, picture, rng):
     for k in range(VIEWS):
         mirrored = k % 2 == 1
         matrix, angle = view(rng, mirrored, size)
-        # Points and the map have pixel edges at whole numbers; OpenCV has pixel centres there.
-        by_centres = np.column_stack([matrix[:, :2], matrix[:, 2] + (matrix[:, :2].sum(1) - 1) / 2])
-        shown = cv2.warpAffine(wide, by_centres, wide.shape[1::-1], borderMode=cv2.BORDER_REPLICATE)
-        answer = ask(shown)
+        answer = ask(warped(wide, matrix, wide.shape[1::-1]))
         if answer is None:
             continue
         points, controls, pose = answer
