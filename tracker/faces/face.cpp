@@ -17,8 +17,8 @@ constexpr float kFaded = 1e-4f;  // smaller controls become 0
 // Limits of a crop's side, relative to the longer side of the image.
 constexpr float kMinFace = 0.02f;
 constexpr float kMaxFace = 4.0f;
-// Weight of HiFiNet's landmarks in the mean with BaseNet's: its error on validation portraits is 2
-// % below that of HiFiNet alone.
+// Weight of HiFiNet's landmarks in the mean with BaseNet's. On validation portraits the mean has an
+// error of 3.24 %, HiFiNet alone 3.31 %.
 constexpr float kHiFiNetWeight = 0.8f;
 constexpr float kDetectorScoreWeight = 0.4f;  // relative to the face probability's
 // Added to the log-odds required of a detection at a roll other than 0: detection tries several
@@ -162,12 +162,11 @@ void Face::encode_hifinet(Frame& frame) {
   }
   state_.has_hifinet_features = true;
   state_.hifinet_features = encoding.features;
-  const float side = state_.crop.side;
+  const float scale = kHiFiNetWeight / state_.crop.side;
   std::transform(encoding.landmarks.begin(), encoding.landmarks.end(),
                  state_.encoding.landmarks.begin(), state_.refinement.begin(),
-                 [side](Point fine, Point coarse) {
-                   return Point{kHiFiNetWeight / side * (fine.x - coarse.x),
-                                kHiFiNetWeight / side * (fine.y - coarse.y)};
+                 [scale](Point fine, Point coarse) {
+                   return Point{scale * (fine.x - coarse.x), scale * (fine.y - coarse.y)};
                  });
 }
 
