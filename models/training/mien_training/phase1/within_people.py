@@ -21,15 +21,15 @@ class Within:
     people, so the variances are running means."""
 
     def __init__(self):
-        self.running = None  # means [2,c]: of the squared error, and of both variances together
+        self.moving_average = None  # means [2,c]: of the squared error, and of both variances together
 
     def loss(self, ours, truth, weight):
         """Of differences [n,c] with weights [n,c]: [c], up to a constant."""
         mean = lambda x: (weight * x).sum(0) / weight.sum(0).clamp(min=1)
         off, moved = mean((ours - truth) ** 2), mean(ours ** 2)
         now = torch.stack([off, moved + mean(truth ** 2)]).detach()
-        if self.running is None:
-            self.running = now
-        self.running = self.running.lerp(now, 1 - DECAY)
-        spread = self.running[1] + FLOOR
-        return (off - self.running[0] / spread * moved) / spread
+        if self.moving_average is None:
+            self.moving_average = now
+        self.moving_average = self.moving_average.lerp(now, 1 - DECAY)
+        spread = self.moving_average[1] + FLOOR
+        return (off - self.moving_average[0] / spread * moved) / spread
