@@ -4,8 +4,7 @@ prose, of sources their comments and messages.
 
 usage: words.py FOLDER FILE...
 Phrases to avoid come from scripts/check/avoid.txt (TERM | PHRASE | ...), known words from docs/glossary.md and
-scripts/check/words.txt. Copies keep their line
-numbers.
+scripts/check/words.txt. Copies keep their line numbers.
 """
 import itertools
 import json
@@ -35,6 +34,7 @@ COLUMNS = re.compile(r"(?<=\S) {2,}(?=\S)")  # of a table, or between code and c
 MESSAGE = re.compile(r"[A-Za-z]{2,},? [a-z]{2,},? [a-z]{2,}")
 PLACEHOLDER = re.compile(r"%[-+.*\d]*[a-z]+|\$?\{[^{}\n]*\}|\$\w+")
 INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`|@param\S* +\w+")
+CELL_BORDER = re.compile(r"(?<!\\)\|")
 INDENTED_CODE = re.compile(r"(?m)^    .*$")
 NOT_PROSE = [re.compile(pattern)
              for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>",
@@ -106,7 +106,8 @@ def copy_of(file, content):
             text = prose(comments_and_messages(content, pattern))
             return file + ".txt", COLUMNS.sub(lambda gap: " ." + gap.group()[2:], text)
     content = INDENTED_CODE.sub(lambda match: re.sub(r"\S", " ", match.group()), content)
-    return file, prose(content)
+    # The tools separate words by spaces: |98 %|98 %| repeats a number, not a word.
+    return file, CELL_BORDER.sub(" | ", prose(content))
 
 
 def main(folder, files):
