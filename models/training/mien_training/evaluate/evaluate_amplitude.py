@@ -167,9 +167,8 @@ def summary(r):
                  ["supported controls within 0.8 to 1.25",
                   f"{sum(0.8 <= v <= 1.25 for v in values)} of {len(values)}"]]
     gaze = [r["clips"]["mirrored"][c]["correlation"] for c in CONTROLS if c.startswith(("eyeLookIn", "eyeLookOut"))]
-    known = [g for g in gaze if g is not None]
     return rows + [["mirrored clips: correlation of sideways gaze with itself",
-                    out.number(np.mean(known) if known else np.nan, 2)]]
+                    out.number(metrics.known_mean(gaze), 2)]]
 
 
 def markdown(report):

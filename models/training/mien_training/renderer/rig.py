@@ -4,9 +4,16 @@ Head frame: centimetres, x to the subject's left, y up, z out of the face, origi
 """
 import numpy as np
 
-from mien_training.data.expressions import CONTROLS
+from mien_training.data.expressions import CONTROLS, INDEX
 from mien_training.paths import ROOT, data
-from mien_training.renderer import native
+from mien_training.renderer import camera, native
+
+EYEBALL = 3.116, 3.602, 7.982  # centre of the left one
+# Degrees (yaw, pitch) of the left eye at a control of 1: a line through an iPhone's angles (arkit_curves; R^2 0.998).
+GAZE = {"In": (-35.6, 0), "Out": (32.7, 0), "Up": (0, -27.0), "Down": (0, 35.2)}
+# The pupil's distance from the centre of rotation relative to the rig's: 1.05 cm of 1.5 cm. Atchison and Smith, Optics
+# of the Human Eye, 2000: the centre lies 1.35 cm behind the cornea, the entrance pupil 0.3 cm.
+PUPIL_DISTANCE = 0.7
 
 
 def blocked(shapes):
@@ -17,6 +24,17 @@ def blocked(shapes):
     return np.ascontiguousarray(out.reshape(k, -1, native.BLOCK).transpose(1, 0, 2))
 
 
+def turn_eyeballs(shapes, neutral, regions):
+    """Adds the rotation of the eyeballs to the shapes [52,26719,3] of gaze, which in the data pack only move the
+    lids."""
+    for side, mirror in (("Left", 1), ("Right", -1)):
+        ball = np.r_[regions[f"sclera_{side.lower()}"], regions[f"iris_{side.lower()}"]]
+        from_centre = neutral[ball] - np.float32(EYEBALL) * (mirror, 1, 1)
+        for direction, (yaw, pitch) in GAZE.items():
+            turn = camera.rotation(*np.arcsin(PUPIL_DISTANCE * np.sin(np.radians([mirror * yaw, pitch]))), 0)
+            shapes[INDEX[f"eyeLook{direction}{side}"], ball] += from_centre @ turn.T - from_centre
+
+
 class Rig:
     def __init__(self):
         rig = np.load(data() / "rig/rig.npz")
@@ -24,7 +42,10 @@ class Rig:
         self.identity_shapes = blocked(rig["ids"].reshape(100, -1))
         order = [[str(n) for n in rig["arkit_names"]].index(name) for name in CONTROLS]
         shapes = rig["ex"].astype(np.float32).reshape(len(rig["ex_names"]), -1)
-        self.control_shapes = blocked(rig["arkit_map"].astype(np.float32)[order] @ shapes)
+        shapes = rig["arkit_map"].astype(np.float32)[order] @ shapes
+        regions = {str(n): slice(*span) for n, span in zip(rig["region_names"], rig["region_range"])}
+        turn_eyeballs(shapes.reshape(len(shapes), *self.neutral.shape), self.neutral, regions)
+        self.control_shapes = blocked(shapes)
         self.corner_position = rig["gpu_pos"].astype(np.int32)[rig["gpu_f"].astype(np.int32)]
         self.corner_uv, self.uv = rig["gpu_f"].astype(np.int32), rig["gpu_uv"].astype(np.float32)
         self.materials = {str(n): (int(a), int(b)) for n, (a, b) in zip(rig["mat_names"], rig["mat_range"])}
