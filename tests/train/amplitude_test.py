@@ -140,8 +140,15 @@ class Refit(unittest.TestCase):
     def test_what_moves_enough_is_left_alone(self):
         layer, renders, portraits = self.made(1.0)
         after = refit.refitted(layer, renders, portraits)
-        others = [i for i, name in enumerate(CONTROLS) if not name.startswith(("eyeBlink", "mouthSmile"))]
+        others = [i for i, name in enumerate(CONTROLS) if not name.startswith(("eyeBlink", "eyeLook", "mouthSmile"))]
         self.assertTrue(torch.equal(after[others], layer[others]))
+
+    def test_gaze_is_learned_where_the_decoder_has_none(self):
+        layer, renders, portraits = self.made(1.0)
+        gaze = [i for i, name in enumerate(CONTROLS) if name.startswith("eyeLook")]
+        layer[gaze] = 0
+        answers = portraits.hidden @ refit.refitted(layer, renders, portraits).T
+        self.assertLess(float((answers - portraits.controls)[:, gaze].abs().max()), 0.02)
 
 
 if __name__ == "__main__":

@@ -73,17 +73,15 @@ class Streamed(unittest.TestCase):
     def test_supported_controls_are_those_that_follow_the_truth(self):
         torch.manual_seed(1)
         controls, noise = torch.rand(40, 6, 52), 0.7 * torch.randn(40, 6, 52)
-        jaw, blinks, gaze = INDEX["jawOpen"], [INDEX[f"eyeBlink{s}"] for s in ("Left", "Right")], INDEX["eyeLookUpLeft"]
-        noise[..., [jaw, *blinks, gaze, INDEX["eyeLookUpRight"]]] = 0
+        blinks, gaze = ([INDEX[unit + side] for side in ("Left", "Right")] for unit in ("eyeBlink", "eyeLookUp"))
+        jaw = INDEX["jawOpen"]
+        noise[..., [jaw, *blinks, *gaze]] = 0
         noise[..., blinks[0]] = 2 * torch.randn(40, 6)  # one side of a pair
         people = {"features": controls + noise, "controls": controls, "visible": torch.ones_like(controls),
                   "stride": torch.tensor([1, 2] * 20)}
         portraits = {**people, "controls": torch.zeros_like(controls)}  # the teacher knows none
-        chosen = lambda gaze: decoder_scores.supported_controls(lambda x: (x, None), people, portraits,
-                                                                np.zeros(52, bool), gaze)
-        self.assertEqual(chosen(False).nonzero()[0].tolist(), [jaw])
-        self.assertTrue(chosen(True)[[jaw, gaze]].all())
-        self.assertFalse(chosen(True)[blinks].any())
+        chosen = decoder_scores.supported_controls(lambda x: (x, None), people, portraits, np.zeros(52, bool))
+        self.assertEqual(chosen.nonzero()[0].tolist(), sorted([jaw, *gaze]))
 
     def test_portraits_hold_still(self):
         number = torch.arange(40.0).view(40, 1, 1)

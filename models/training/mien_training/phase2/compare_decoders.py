@@ -107,7 +107,6 @@ def main():
     parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
     parser.add_argument("--stream", type=Path, default=cache() / "stream")
     parser.add_argument("--before-stream", type=Path, help="of the encoder of BEFORE; default: the same")
-    parser.add_argument("--each", action="store_true", help="also prints every control")
     parser.add_argument("before", type=Path)
     parser.add_argument("decoders", type=Path, nargs="+")
     args = parser.parse_args()
@@ -117,12 +116,8 @@ def main():
     parts = validation_people(args.stream, args.network)
     for path in args.decoders:
         after = People(path, *parts, before.supported)
-        differences, errors, error_of_mean = compare(before, after)
-        print(f"{path.stem.rjust(20)}  {verdict(differences, errors, error_of_mean, before.supported)}\n"
+        print(f"{path.stem.rjust(20)}  {verdict(*compare(before, after), before.supported)}\n"
               f"{' ' * 22}{amplitude(after)}", flush=True)
-        for i in np.argsort(differences) if args.each else ():
-            print(f"{CONTROLS[i].rjust(40)} {differences[i]:+.3f} ({errors[i]:.3f})"
-                  f"{'' if before.supported[i] else ' not supported before'}")
 
 
 if __name__ == "__main__":

@@ -4,13 +4,14 @@ import torch
 
 from mien_training.data.expressions import CONTROLS, MIRROR
 from mien_training.evaluate import metrics
+from mien_training.networks.architectures import ControlsDecoder
 from mien_training.phase1.losses import teacher_spread
+from mien_training.phase2 import stream_features
 from mien_training.phase2.decoder_output import LEFT, RIGHT, output_controls
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
 KEPT_CORRELATION = 0.5        # for controls that people rely on already
 FOLLOWED_CORRELATION = 0.7    # with the teacher, on real faces, that will do alone
-GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
 
 
 @torch.no_grad()
@@ -53,9 +54,22 @@ def known_to_teacher(portraits):
     return {**portraits, "visible": portraits["visible"].float() * known}
 
 
-def supported_controls(decoder, rendered, portraits, before, gaze):
+def supported_now(args, state, before):
+    """{"supported": f32 [52]} of the decoder of a checkpoint, if the stream has validation people."""
+    parts = [args.stream / "val", args.stream / "portraits_val"]
+    if not all(part.is_dir() for part in parts):
+        return {}
+    decoder = ControlsDecoder()
+    decoder.load_state_dict(state)
+    people = (stream_features.load(part, args.network) for part in parts)
+    chosen = supported_controls(decoder.eval(), *people, before.numpy() > 0)
+    print(f"supported controls: {(before > 0).sum()} before, {chosen.sum()} now")
+    return {"supported": torch.from_numpy(chosen.astype(np.float32))}
+
+
+def supported_controls(decoder, rendered, portraits, before):
     """Which controls [52] a decoder supports, by validation people. `before` [52]: those supported so far, whose
-    threshold is lower, so none is lost by chance; `gaze`: may be supported.
+    threshold is lower, so none is lost by chance.
 
     A control needs a sufficient correlation on renders with the encoder on every and on alternate frames, or in the
     mean of this and of the correlation with the teacher on portraits, or a high one on portraits; on both sides of the
@@ -69,5 +83,4 @@ def supported_controls(decoder, rendered, portraits, before, gaze):
     lowest = np.fmax(lowest, (lowest + followed_by) / 2)
     lowest[np.nan_to_num(followed_by) >= FOLLOWED_CORRELATION] = 1
     chosen = np.nan_to_num(lowest, nan=-1) >= np.where(before, KEPT_CORRELATION, SUPPORTED_CORRELATION)
-    chosen &= ~GAZE | gaze
     return chosen & chosen[MIRROR]

@@ -3,6 +3,7 @@
 usage: python3 -m mien_training.phase2.refit_outputs --network basenet|hifinet --decoders DECODERS.pt --out OUT.pt
 Run stream_features.py and portrait_stream.py before. Eyelids and smiles follow the portraits, where a closed eye is 1
 for everyone (eyelids.py) and smiles are the teacher's; on renders their target is their previous output times a gain.
+Gaze follows both: how far eyes turn is the same in both (rig.py).
 Other controls that correlate with the truth and move less than it on rendered validation people get a gain around their
 output at rest. Neutral portraits get at most NEUTRAL on average, rendered faces at rest at most RESTING. Eyelids get a
 larger gain if winks of rendered validation people need it.
@@ -21,7 +22,7 @@ from mien_training.networks.architectures import FACE_NETWORKS, ControlsDecoder
 from mien_training.paths import cache
 from mien_training.phase2 import stream_features
 from mien_training.phase2.decoder_output import output_controls
-from mien_training.phase2.decoder_scores import with_stride
+from mien_training.phase2.decoder_scores import supported_now, with_stride
 
 AIM, MOST = 0.9, 1.4      # deviation over the true one that gains aim at, and the largest gain
 LEAST = 0.5               # correlation with the truth on renders, below which a gain would mostly magnify noise
@@ -49,6 +50,7 @@ class Weights:
 
 EYELIDS = Weights(portraits=1, renders=0, keep=0.7, gain=0.8)
 SMILES = Weights(portraits=1, renders=0, keep=3, gain=1.25)
+GAZE = Weights(portraits=1, renders=1, keep=0, gain=1)
 KEPT_ON_PORTRAITS = 0.02  # share of `keep` there
 
 
@@ -176,6 +178,9 @@ def followers(portraits):
         smile = INDEX[f"mouthSmile{side}"]
         yield INDEX[f"eyeBlink{side}"], portraits.closed[:, number], EYELIDS
         yield smile, portraits.controls[:, smile], SMILES
+        for direction in ("Down", "In", "Out", "Up"):
+            gaze = INDEX[f"eyeLook{direction}{side}"]
+            yield gaze, portraits.controls[:, gaze], GAZE
 
 
 def refitted(layer, renders, portraits, others=None):
@@ -209,6 +214,7 @@ def main():
     layer = refitted(torch.cat([state["output.weight"], state["output.bias"][:, None]], 1), *parts)
     known["controls_decoder"] = {**state, "output.weight": layer[:, :-1].contiguous(),
                                  "output.bias": layer[:, -1].contiguous()}
+    known |= supported_now(args, known["controls_decoder"], known["supported"])
     with whole(args.out) as out:
         torch.save(known, out)
 

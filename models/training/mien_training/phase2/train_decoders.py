@@ -12,7 +12,6 @@ import argparse
 import time
 from pathlib import Path
 
-import numpy as np
 import torch
 
 from mien_training.data.eyelids import closures
@@ -22,7 +21,7 @@ from mien_training.paths import cache
 from mien_training.phase2 import stream_features
 from mien_training.phase2.decoder_losses import JOINED, PortraitPoseTask, PortraitTask, PoseTask, RenderTask
 from mien_training.phase2.decoder_run import Run
-from mien_training.phase2.decoder_scores import supported_controls
+from mien_training.phase2.decoder_scores import supported_now
 
 LEARNED = ("features", "controls", "visible", "pose")
 DECODERS = {"controls": (ControlsDecoder, RenderTask, PortraitTask), "pose": (PoseDecoder, PoseTask, PortraitPoseTask)}
@@ -112,21 +111,6 @@ def read_decoders(path):
     return {k: v for k, v in torch.load(path, map_location="cpu").items() if k.endswith("_decoder") or k == "supported"}
 
 
-def supported_now(args, state, before):
-    """{"supported": f32 [52]}, if the stream has validation people."""
-    parts = [args.stream / "val", args.stream / "portraits_val"]
-    if args.decoder != "controls" or not all(part.is_dir() for part in parts):
-        return {}
-    if args.device != "cpu":
-        torch.set_default_device("cpu")
-    decoder = ControlsDecoder()
-    decoder.load_state_dict(state)
-    people = (stream_features.load(part, args.network) for part in parts)
-    chosen = supported_controls(decoder.eval(), *people, before.numpy() > 0, args.network == "hifinet")
-    print(f"supported controls: {(before > 0).sum()} before, {chosen.sum()} now")
-    return {"supported": torch.from_numpy(chosen.astype(np.float32))}
-
-
 def main():
     args = options().parse_args()
     torch.set_num_threads(1)
@@ -137,7 +121,6 @@ def main():
     args.out.parent.mkdir(parents=True, exist_ok=True)
     own = start.pop(f"{args.decoder}_decoder", None)
     run, lessons = Run(args, DECODERS[args.decoder][0], own and on(args.device, own)), lessons_of(args)
-    print(f"{len(lessons[0][0].data['features'])} tracks of renders", flush=True)
     run.begin(torch.cat([source.data["features"][:, ::5].flatten(0, 1) for source, _ in lessons]))
     noise = args.noise * deviations(lessons[0][0].data["features"])
 
@@ -155,7 +138,9 @@ def main():
             torch.save({**start, run.name: run.state()}, args.out.with_stem(f"{args.out.stem}_{run.step}"))
         if run.step % 200 == 0:
             run.save(**start)
-    run.save(**start | supported_now(args, run.state(), before))
+    if args.device != "cpu":
+        torch.set_default_device("cpu")
+    run.save(**start | (supported_now(args, run.state(), before) if args.decoder == "controls" else {}))
 
 
 if __name__ == "__main__":
