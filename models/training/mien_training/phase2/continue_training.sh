@@ -8,9 +8,9 @@
 # PEOPLE (800) and VALIDATION (192) people of the features; STEPS (150) of the controls decoder: more memorize these people
 set -euo pipefail
 cd "$(dirname "$0")/../../../.."
-export PYTHONPATH=$PWD/models/training:$PWD/apps/convert OMP_NUM_THREADS=1
 network=$1 hours=$2 name=${3:-$1_continued}
 python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} validation=${VALIDATION:-192} steps=${STEPS:-150}
+export PYTHONPATH=$PWD/models/training:$PWD/apps/convert OMP_NUM_THREADS=1  # after nproc, which obeys it
 cache=${MIEN_CACHE:-$HOME/.cache/mien}
 run=$cache/runs/$name stream=$cache/stream/$name shipped=$cache/runs/shipped before=$cache/stream/shipped
 scripts/setup.sh train
@@ -19,9 +19,8 @@ mkdir -p "$run/encoders" "$stream"
 once() {  # file that a command creates, module, arguments
   [ -e "$1" ] || "$python" -m "mien_training.$2" "${@:3}"
 }
-stills() {  # split, arguments
-  "$python" -m mien_training.data.make_synthetic --framing "$network" --split "$1" --kind stills --leaning 0.6 --apart 0.4 --turned 0.25 --alike 4 "${@:2}"
-}
+# No function: in the background it would be a shell, and not the program, that ends when killed.
+stills=("$python" -m mien_training.data.make_synthetic --framing "$network" --kind stills --leaning 0.6 --apart 0.4 --turned 0.25 --alike 4)
 
 once "$cache/faces/misplaced.npy" data.faces
 once "$cache/portrait_skins/fits.npz" renderer.portrait_fit
@@ -32,16 +31,15 @@ cp "$shipped"/{basenet,hifinet}.pt "$run/encoders"
 decoders=$shipped/${network}_decoders.pt
 
 if [ "$hours" != 0 ]; then
-  stills val --count 2000 --workers "$processes"
-  stills train --count 4000 --workers "$processes"
+  "${stills[@]}" --split val --count 2000 --workers "$processes"
+  "${stills[@]}" --split train --count 4000 --workers "$processes"
   once "$run/start.pt" networks.warm_start --network "$network" --out "$run/start.pt"
-  if [ "$network" = basenet ]; then  # keeps its motion, and learns from HiFiNet
+  lessons=(--keep 12)  # what the losses on portraits do not teach
+  if [ "$network" = basenet ]; then
     once "$shipped/distilled.npz" phase2.distil_controls
-    lessons=(--distil "$shipped/distilled.npz" --keep 12)
-  else
-    lessons=(--decoders-learn)
+    lessons+=(--distil "$shipped/distilled.npz")
   fi
-  stills train --keep 20 >"$run/stills.log" 2>&1 &  # the encoder uses each a few times
+  "${stills[@]}" --split train --keep 20 >"$run/stills.log" 2>&1 &  # the encoder uses each a few times
   trap 'kill %1 2>/dev/null || true' EXIT
   # A run that is complete ends immediately when it is resumed.
   nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" -m mien_training.phase1.train_encoder \
@@ -49,7 +47,6 @@ if [ "$hours" != 0 ]; then
     --rate "${RATE:-8e-4}" --hours "$hours" --samples 100000000 --report-every 150000 --resume
   kill %1
   cp "$run/last.pt" "$run/encoders/$network.pt"
-  [ "$network" = basenet ] || decoders=$run/decoders.pt
   if [ "$run/last.pt" -nt "$stream/train" ]; then  # features and decoders of an earlier encoder
     rm -rf "$stream" "$run"/{pose,trained}.pt
   fi
