@@ -110,10 +110,10 @@ class Averages(unittest.TestCase):
         self.assertEqual(["a.jpg", "b.jpg"], labels.name.tolist())
         self.assertEqual([50, 100], labels.points[:, 0, 0].tolist())
 
-    def test_only_the_chosen_splits_are_asked(self):
+    def test_only_faces_of_the_chosen_splits_are_asked(self):
         table = {"name": np.array([f"{i}.jpg" for i in range(300)]), "group": np.full(300, "Black"),
-                 "kind": np.array(["turned", "other"] * 150)}
-        chosen = label_portraits.names_of(table, ["turned"], ["test"])
+                 "kind": np.array(["turned", "unlabelled"] * 150)}
+        chosen = label_portraits.names_of(table, ["test"])
         self.assertTrue(chosen)
         for name in chosen:
             self.assertEqual("test", portrait_labels.split_of(name))

@@ -1,6 +1,6 @@
 """Labels portraits with the teacher, six times each: the mean is the label, and the scatter lowers its weight.
 
-usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...] [--splits SPLIT...]
+usage: python3 -m mien_training.data.label_portraits PACK [--splits SPLIT...]
 Needs PyPI's mediapipe, and for a pack of names only, $MIEN_DATA/PACK/faces.npz, the images in $MIEN_CACHE/PACK/img.
 Writes $MIEN_CACHE/PACK/labels.npz, which replaces the pack's own labels, with the same fields, and landmark_scatter
 [n], the mean distance of the views' landmarks from their mean as a share of the distance between the pupils,
@@ -116,13 +116,12 @@ def portraits_of(pack):
     return np.load(named if named.exists() else data() / pack / "labels.npz")
 
 
-def names_of(table, kinds, splits):
-    """The portraits of some splits, kind by kind where the pack has kinds."""
-    names = table["name"].astype(str)
-    if "kind" in table:
-        names = np.concatenate([names[table["kind"] == kind] for kind in kinds])
-    group = dict(zip(table["name"].astype(str), portrait_labels.groups(table)))
-    return [str(name) for name in names if portrait_labels.split_of(name, group[name]) in splits]
+def names_of(table, splits):
+    """The portraits of some splits, without those in which the pack's authors found no face."""
+    names, groups = table["name"].astype(str), portrait_labels.groups(table)
+    faces = table["kind"] != "unlabelled" if "kind" in table else np.full(len(names), True)
+    return [str(name) for name, group, face in zip(names, groups, faces)
+            if face and portrait_labels.split_of(name, group) in splits]
 
 
 def load(path):
@@ -137,13 +136,12 @@ def load(path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pack")
-    parser.add_argument("--kinds", nargs="*", default=["turned", "expressive", "other"])
     parser.add_argument("--splits", nargs="*", default=["train", "val", "test"])
     options = parser.parse_args()
     folder, images = cache() / options.pack, portrait_labels.folder(options.pack) / "img"
     table = portraits_of(options.pack)
     rows = load(folder / "labels.npz")
-    asked = [name for name in names_of(table, options.kinds, options.splits) if name not in rows]
+    asked = [name for name in names_of(table, options.splits) if name not in rows]
     folder.mkdir(parents=True, exist_ok=True)
     ask, saved = teacher(), time.time()
     for name in tqdm(asked, mininterval=10):

@@ -3,8 +3,8 @@
 OUT/<split>_<kind>/shard_0000/images.npy is uint8 [n,window,window,3] RGB, with the window of the framing (framing.py).
 labels.npz has for each image: landmarks [n,175,2] in camera pixels; window [n,3] (cx, cy, side of the stored image in
 camera pixels); crop [n,4] (cx, cy, side, roll); controls [n,52]; rotation [n,3,3] and translation [n,3] (metres) of the
-head in camera space; f_px [n]; camera_wh [n,2]; visibility [n,175]; identity, sequence, frame [n]. The seed, the number
-of the shard and --frames determine a shard; finished shards are kept.
+head in camera space; f_px [n]; camera_wh [n,2]; visibility [n,175]; identity, sequence, frame [n]. The number of the
+shard and the options determine a shard; finished shards are kept.
 """
 import argparse
 import itertools
@@ -112,7 +112,7 @@ def sequence(studio, framing, rng, split, number, perform, frames):
 
 def frames_of_shard(studio, framing, args, shard, count, perform):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
-    rng = np.random.default_rng([args.seed, SPLITS.index(args.split), KINDS.index(args.kind), shard])
+    rng = np.random.default_rng([1, SPLITS.index(args.split), KINDS.index(args.kind), shard])
     if args.kind == "stills":
         yield from stills(studio, framing, rng, args, shard * STILLS_PER_SHARD, perform, count)
     else:
@@ -177,16 +177,13 @@ def main():
     parser.add_argument("--kind", choices=KINDS, required=True)
     amount = parser.add_mutually_exclusive_group(required=True)
     amount.add_argument("--count", type=int, help="stills or sequences in all")
-    amount.add_argument("--keep", type=int, metavar="SHARDS",
-                        help="renders until it is stopped and deletes the oldest shards above this number")
+    amount.add_argument("--keep", type=int, metavar="SHARDS", help="renders without end, keeping the latest shards")
     parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
     parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
     parser.add_argument("--leaning", type=float, default=0, help="share of stills whose expression leans to one side")
-    parser.add_argument("--apart", type=float, default=0,
-                        help="share of stills in which at most one unit of each region moves")
+    parser.add_argument("--apart", type=float, default=0, help="share of stills with one moving unit a region at most")
     parser.add_argument("--turned", type=float, default=0, help="share of stills whose head looks far to one side")
     parser.add_argument("--alike", type=int, choices=(1, 2, 4, 8), default=1, help="stills of each person")
-    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
     parser.add_argument("--workers", type=int, default=1)
     args = parser.parse_args()

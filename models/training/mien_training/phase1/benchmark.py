@@ -88,9 +88,9 @@ def benchmark(network, batch, steps):
     torch.set_num_threads(1)
     train_encoder.keep_freed_memory()
     torch.manual_seed(1)
-    options = types.SimpleNamespace(network=network, name="benchmark", rate=1e-4, start_from=None, resume=False, seed=1,
+    options = types.SimpleNamespace(network=network, name="benchmark", rate=1e-4, start_from=None, resume=False,
                                     batch=batch, samples=10**9, hours=None, real_share=0.2,
-                                    through=None, decoders_learn=False, plain=False, keep=0)
+                                    through=None, decoders_learn=False, keep=0)
     trainer, clock = Trainer(options, torch.device("cpu"), 1, 0), Clock()
     clock.measure(trainer.mixture, "batch", "data")
     clock.measure(train_encoder, "moved_views", "data")

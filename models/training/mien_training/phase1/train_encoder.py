@@ -26,7 +26,6 @@ from mien_training.data.expressions import CONTROLS
 from mien_training.data.framing import BASENET
 from mien_training.data.sequences import for_inference, sample_crops, template
 from mien_training.networks.architectures import FACE_NETWORKS
-from mien_training.networks.native_layers import native
 from mien_training.paths import cache
 from mien_training.phase1.dormant_units import Activity, reset_dormant
 from mien_training.phase1.losses import RESPONDING, Losses, of_portraits
@@ -151,7 +150,7 @@ class Trainer:
         self.options, self.device, self.world, self.rank = options, device, world, rank
         self.network = FACE_NETWORKS[options.network]()
         self.framing = self.network.framing
-        self.network.encoder.map_type = torch.float32 if options.plain else map_type(device)
+        self.network.encoder.map_type = map_type(device)
         with torch.no_grad():
             self.network.landmarks.bias.copy_(template().flatten())
             self.network.landmarks.weight.mul_(0.1)
@@ -195,7 +194,7 @@ class Trainer:
         self.average.network.load_state_dict(state["average"])
 
     def load_data(self):
-        seed = self.options.seed * 1000 + self.rank + 7919 * self.step
+        seed = 1000 + self.rank + 7919 * self.step
         self.generator = torch.Generator().manual_seed(seed)
         rendered = lambda *kinds, **more: face_batches.Rendered(*kinds, framing=self.framing, **more)
         # Sequences are for phase 2, which needs features of unseen faces.
@@ -323,13 +322,11 @@ def parse():
     parser.add_argument("--hours", type=float, help="ends sooner, with the schedule fitted to the clock")
     parser.add_argument("--batch", type=int, default=96, help="of each process")
     parser.add_argument("--rate", type=float, default=1.3e-3)
-    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--report-every", type=int, default=50_000)
     parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--distil", metavar="FILE", help="of distil_controls.py, whose controls replace the teacher's")
     parser.add_argument("--keep", type=float, default=0, metavar="WEIGHT",
                         help="of agreement with the controls that the initial weights predict")
-    parser.add_argument("--plain", action="store_true", help="PyTorch's own layers and maps in fp32, for comparison")
     parser.add_argument("--through", metavar="DECODERS",
                         help="trained decoders that predict controls and pose, fixed by default")
     parser.add_argument("--decoders-learn", action="store_true",
@@ -350,13 +347,12 @@ def main():
     keep_freed_memory()
     torch.set_flush_denormal(True)  # moments of dormant units decay to denormals, with which a step takes twice as long
     torch.set_num_threads(1)
-    native.serves = not options.plain
     world, rank = int(os.environ.get("WORLD_SIZE", 1)), int(os.environ.get("RANK", 0))
     local = int(os.environ.get("LOCAL_RANK", 0))
     device = torch.device("cuda", local) if torch.cuda.is_available() else torch.device("cpu")
     if world > 1:
         torch.distributed.init_process_group("nccl" if device.type == "cuda" else "gloo")
-    torch.manual_seed(options.seed * 1000 + rank)
+    torch.manual_seed(1000 + rank)
     Trainer(options, device, world, rank).train()
 
 

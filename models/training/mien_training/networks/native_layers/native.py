@@ -10,7 +10,6 @@ from mien_training.native_build import library
 HERE = Path(__file__).resolve().parent
 MAP_TYPES = (torch.float32, torch.bfloat16)
 MAX_CHANNELS = 1024
-serves = True  # False: training with PyTorch's own layers, for comparison
 
 
 @functools.lru_cache
@@ -29,4 +28,4 @@ def by_pixel(x):
 
 def in_training(layer, x):
     """Whether the native code applies: in training on a CPU."""
-    return serves and layer.training and x.device.type == "cpu" and x.dtype in MAP_TYPES
+    return layer.training and x.device.type == "cpu" and x.dtype in MAP_TYPES
